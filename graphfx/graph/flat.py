@@ -1,0 +1,66 @@
+"""The flattened graph: no stacks, no groups, no parameters; what the plan is made from.
+
+Paths are instance paths: `storm` for a node, `fall/spiral` for operator `spiral` of stack `fall`,
+`fall/gust/left` for what stands inside a group.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from graphfx.errors import NOWHERE, Location
+from graphfx.graph.values import Value
+from graphfx.node.types import NodeType
+
+
+@dataclass
+class FlatNode:
+    """One node that may run. `arguments` holds every parameter, given or default.
+
+    `sources` are the paths of the nodes whose streams it takes, in order (images: their `from`);
+    `references` maps a parameter of type "node" (`camera`) to a path. `sets` are the attribute values of
+    emit, spawn, recycle and set. `only` is a bool Value or the path of a selector node. `during` is
+    (start, end) in seconds. `looks` are the modifiers of an image's `from` entries, in order of `sources`.
+    """
+
+    path: str
+    node_type: NodeType
+    sources: tuple[str, ...] = ()
+    arguments: dict[str, Value] = field(default_factory=dict)
+    sets: dict[str, Value] = field(default_factory=dict)
+    references: dict[str, str] = field(default_factory=dict)
+    only: Value | None = None
+    during: tuple[float, float] | None = None
+    when: str = ""
+    enabled: bool = True
+    looks: tuple[dict[str, object], ...] = ()
+    location: Location = NOWHERE
+    given: frozenset[str] = frozenset()
+    """Names of the parameters that the document states; the rest stand at their defaults."""
+
+
+@dataclass(frozen=True)
+class TimeSettings:
+    """The clock: frame n shows t = (n - first) / fps; simulation begins at -preroll seconds."""
+
+    fps: float = 24.0
+    first: int = 1
+    last: int = 100
+    preroll: float = 0.0
+    substeps: int = 1
+    method: str = "auto"
+    tolerance: float = 1e-3
+    precision: int = 32
+
+
+@dataclass
+class FlatGraph:
+    """A whole effect after flattening; `nodes` is in document order."""
+
+    name: str
+    file: str
+    seed: int
+    time: TimeSettings
+    nodes: dict[str, FlatNode]
+    doc: str = ""
+    document_hash: str = ""
