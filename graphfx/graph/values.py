@@ -7,7 +7,7 @@ stand where a vector is wanted only if it is a literal of three numbers.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphfx.errors import NOWHERE, Location
 from graphfx.node.types import NodeType
@@ -32,9 +32,13 @@ class Literal(Value):
 
 @dataclass(frozen=True)
 class ParameterValue(Value):
-    """`{"param": name}`: replaced by what the parameter was given when the graph is flattened."""
+    """`{"param": name}`: replaced by what the parameter was given when the graph is flattened.
+
+    `component` is 'start' or 'end' where an expression reads one end of an interval.
+    """
 
     name: str = ""
+    component: str = ""
 
 
 @dataclass(frozen=True)
@@ -85,7 +89,10 @@ class Ramp(Value):
 
 @dataclass(frozen=True)
 class Random(Value):
-    """`{"rand": [low, high]}`: uniform between two values; `per` is the scope of one draw, `vary` a share that varies by particle."""
+    """`{"rand": [low, high]}`: uniform between two values, on the segment between two vectors.
+
+    `per` is the scope of one draw, `vary` a share that varies by particle.
+    """
 
     low: Value | None = None
     high: Value | None = None
@@ -100,3 +107,44 @@ class Node(Value):
     node_type: NodeType | None = None
     arguments: tuple[tuple[str, Value], ...] = ()
     per: str = "life"
+
+
+class Measure(NamedTuple):
+    """How deep a tree of values nests, and how many parts it has when nothing is shared."""
+
+    depth: int
+    size: int
+
+
+_LEAF = Measure(0, 1)
+
+
+def children(tree: Any) -> tuple[Any, ...]:
+    """Return the parts of a value or of an expression's tree, one level down."""
+    match tree:
+        case Call():
+            return tree.arguments
+        case Expression():
+            return (tree.tree,)
+        case Keys():
+            return tree.values
+        case Ramp():
+            return (*tree.values, tree.over)
+        case Random():
+            return (tree.low, tree.high)
+        case Node():
+            return tuple(value for _, value in tree.arguments)
+    return ()
+
+
+def measure(tree: Any) -> Measure:
+    """Return a tree's depth and size; each part remembers its own, so shared parts are measured once."""
+    parts = children(tree)
+    if not parts:
+        return _LEAF
+    known: Measure | None = tree.__dict__.get("_measure")
+    if known is None:
+        measures = [measure(part) for part in parts]
+        known = Measure(1 + max(m.depth for m in measures), 1 + sum(m.size for m in measures))
+        tree.__dict__["_measure"] = known
+    return known

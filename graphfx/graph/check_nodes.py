@@ -1,0 +1,232 @@
+"""Nodes and operators of a document to `Entry`s: types, keys, parameters, attributes and common keys."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from graphfx.errors import Location, suggestion
+from graphfx.graph.check_streams import references
+from graphfx.graph.check_values import ValueReader
+from graphfx.graph.checking import Checking, declared, takes
+from graphfx.graph.items import Item, shown
+from graphfx.graph.model import Entry, Graph
+from graphfx.graph.named import NamedValues
+from graphfx.graph.names import ID, REFERENCE_TYPES, WHEN, WHEN_ROLES, keys_of
+from graphfx.graph.scope import Scope
+from graphfx.graph.sets import AttributeReader
+from graphfx.graph.values import Literal
+from graphfx.node import ATTRIBUTES, COMMON_KEYS, OTHER_NAMES, Parameter
+
+_NODE_KINDS = ("emitters", "selectors", "operators", "renders", "geometry")
+_ONLY = Parameter("only", "bool", None, doc="Particles that it acts on.")
+_ENABLED = Parameter("enabled", "bool", None)
+_DURING = Parameter("during", "interval", None, unit="s")
+_SETTLED = "it is decided before the cook: only literals and parameters may stand here"
+
+
+@dataclass
+class NodeReader:
+    """Reads the nodes of one graph; `values` are the graph's named values."""
+
+    checking: Checking
+    graph: Graph
+    reader: ValueReader
+    values: NamedValues
+
+    def entry(self, name: str, item: Item, place: str, path: str, stack: str = "") -> Entry:
+        """Return one node, or one operator of `stack`; where its type is wrong it has neither type nor group."""
+        entry = Entry(name, place, path, item.location)
+        if not item.is_object:
+            self.checking.complain(item.location, path, f"a node should be an object with a \"type\"; here stands {item.words}")
+            return entry
+        if not self._type(entry, item, bool(stack)):
+            entry.node_type = entry.group = None
+            return entry
+        seed_key = item.value.get("seed_key")
+        text = self.checking.text(seed_key, f"{path}.seed_key", "seed_key") if seed_key else ""
+        entry.seed = f"={text}" if text else place
+        self._keys(entry, item, bool(stack))
+        self._common(entry, item)
+        values = self.values
+        if "values" in item.value and "values" in keys_of(entry.role, entry.kind):
+            values = NamedValues(self.checking, self.reader, item.value["values"], self.scope(entry, item), self.values)
+            values.read_all()
+        self._arguments(entry, item, values)
+        if "set" in keys_of(entry.role, entry.kind):
+            AttributeReader(self.checking, self.reader).read(entry, item.value.get("set"), self.scope(entry, item, values))
+        references(self.checking, entry, item, bool(stack))
+        if entry.role == "stack":
+            self._ops(entry, item)
+        return entry
+
+    def scope(self, entry: Entry, item: Item, values: NamedValues | None = None, uniform: str = "") -> Scope:
+        """Return what the values of a node may read."""
+        values = values or self.values
+        qualifiers = {"birth"} if entry.kind in ("operators", "selectors", "group") else set()
+        if "when" in item.value and item.value["when"].value == "hit":
+            qualifiers.add("hit")
+        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.names, uniform, frozenset(qualifiers), self.graph.broken)
+
+    def _type(self, entry: Entry, item: Item, inside: bool) -> bool:
+        given = item.value.get("type")
+        if given is None:
+            self.checking.complain(item.location, entry.path, 'this node has no "type"; write, for instance, "type": "stack"')
+            return False
+        name = entry.type_name = self.checking.text(given, f"{entry.path}.type", "a type")
+        entry.type_location = given.location
+        library = self.checking.library
+        if not name:
+            return False
+        if name in self.graph.use:
+            entry.group = self.graph.use[name]
+        elif name in library and library.kind_of(name) != "values":
+            entry.node_type = self.checking.node_type(name)
+        elif name in library:
+            self.checking.complain(given.location, f"{entry.path}.type", f"'{name}' is a value, not a node; give it to a parameter "
+                                   f'or an attribute: {{"{name}": {{...}}}}')
+        elif f"use.{name}" not in self.graph.broken:
+            known = [*self.checking.types_of(*_NODE_KINDS), *self.graph.use]
+            self.checking.complain(given.location, f"{entry.path}.type", f"there is no node type '{name}'." + suggestion(name, known),
+                                   f"a group is named under \"use\": {{\"{name}\": \"groups/{name}.json\"}}" if not suggestion(name, known) else "")
+        if entry.node_type is None and entry.group is None:
+            return False
+        return self._stands(entry, given.location, inside)
+
+    def _stands(self, entry: Entry, location: Location, inside: bool) -> bool:
+        """Complain where a type may not stand in a stack."""
+        if not inside:
+            return True
+        name, path = entry.type_name, f"{entry.path}.type"
+        if entry.group is not None:
+            if not entry.group.sound or len(entry.group.inputs) == len(entry.group.outputs) == 1:
+                return True
+            self.checking.complain(location, path, f"the group {name} has {len(entry.group.inputs)} inputs and "
+                                   f"{len(entry.group.outputs)} outputs; in a stack stand groups with one of each. Make it a node")
+            return False
+        if entry.kind == "operators" and entry.role != "stack":
+            return True
+        what = "a stack" if entry.role == "stack" else f"one of the {entry.kind}"
+        self.checking.complain(location, path, f"{name} is {what}; in a stack stand operators and groups. Make it a node")
+        return False
+
+    def _keys(self, entry: Entry, item: Item, inside: bool) -> None:
+        """Complain of keys that this type does not take."""
+        name, path = entry.type_name, entry.path
+        parameters = self._parameters(entry)
+        keys = [key for key in keys_of(entry.role, entry.kind) if key != ("from" if inside else "id")]
+        where = declared(entry.node_type) if entry.node_type else f"declared in {entry.group.file}" if entry.group else ""
+        for key, _ in item.entries():
+            if key in parameters or key in keys:
+                continue
+            location, at = item.key_location(key), f"{path}.{key}"
+            if key == "id":
+                self.checking.complain(location, at, "a node's id is its key under \"nodes\"; leave 'id' out")
+            elif key == "from" and inside:
+                self.checking.complain(location, at, "the operators of a stack take the stack's stream; leave 'from' out")
+            elif key in ATTRIBUTES and "set" in keys:
+                self.checking.complain(location, at, f"'{key}' is an attribute; write it inside \"set\": {{\"{key}\": ...}}")
+            elif key in COMMON_KEYS:
+                self.checking.complain(location, at, f"{name} does not take '{key}'", f"its keys: {', '.join(keys)}")
+            else:
+                self.checking.complain(location, at, f"{name} has no parameter '{key}'." + suggestion(key, [*parameters, *keys], OTHER_NAMES),
+                                       takes(name, parameters.values()), where)
+
+    def _parameters(self, entry: Entry) -> dict[str, Parameter]:
+        return entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
+
+    def _common(self, entry: Entry, item: Item) -> None:
+        scope = self.scope(entry, item)
+        settled = replace(scope, uniform=_SETTLED, names=frozenset())
+        keys = keys_of(entry.role, entry.kind)
+        if "doc" in item.value:
+            self.checking.text(item.value["doc"], f"{entry.path}.doc", "doc")
+        if "enabled" in item.value and "enabled" in keys:
+            entry.enabled = self.reader.read(item.value["enabled"], _ENABLED, settled, "enabled")
+        if "during" in item.value and "during" in keys and "during" not in self._parameters(entry):
+            entry.during = self.reader.read(item.value["during"], _DURING, settled, "during")
+        if "when" in item.value and "when" in keys:
+            self._when(entry, item.value["when"])
+        only = item.value.get("only") if "only" in keys else None
+        if only is not None and only.is_text:
+            entry.only = Literal("selector", only.location, f"{entry.path}.only", "", only.value)
+        elif only is not None:
+            entry.only = self.reader.read(only, _ONLY, scope, "only")
+
+    def _when(self, entry: Entry, item: Item) -> None:
+        path = f"{entry.path}.when"
+        if entry.role not in WHEN_ROLES:
+            self.checking.complain(item.location, path, f"{entry.type_name} acts through the whole step and has no moment; "
+                                   "leave 'when' out, or say \"during\"")
+        elif item.is_text and item.value in WHEN:
+            entry.when = item.value
+        else:
+            hint = suggestion(item.value, WHEN) if item.is_text else ""
+            stands = shown(item.value) if item.is_text else item.words
+            self.checking.complain(item.location, path, f"when should be one of {', '.join(WHEN)}, not {stands}." + hint)
+
+    def _arguments(self, entry: Entry, item: Item, values: NamedValues) -> None:
+        parameters = self._parameters(entry)
+        for parameter in parameters.values():
+            given = item.value.get(parameter.name)
+            path = f"{entry.path}.{parameter.name}"
+            if given is None:
+                if parameter.required:
+                    notes = (takes(entry.type_name, parameters.values()), declared(entry.node_type) if entry.node_type else "")
+                    self.checking.complain(item.location, entry.path, f"{entry.type_name} needs '{parameter.name}'"
+                                           + (f": {parameter.doc}" if parameter.doc else ""), *notes)
+            elif parameter.type in REFERENCE_TYPES:
+                text = self.checking.text(given, path, f"{parameter.name}, the id of a node,")
+                if text:
+                    entry.references[parameter.name] = (text, given.location)
+            else:
+                scope = self.scope(entry, item, values, why_uniform(entry, parameter))
+                value = self.reader.read(given, parameter, scope, parameter.name)
+                if value is not None:
+                    entry.arguments[parameter.name] = value
+
+    def _ops(self, stack: Entry, item: Item) -> None:
+        ops = item.value.get("ops")
+        path = f"{stack.path}.ops"
+        if ops is None or not ops.is_list:
+            location = item.location if ops is None else ops.location
+            self.checking.complain(location, path if ops else stack.path,
+                                   "a stack needs \"ops\", the list of its operators" + (f"; here stands {ops.words}" if ops else ""))
+            return
+        seen: dict[str, Location] = {}
+        for index, given in enumerate(ops.value):
+            at = f"{path}[{index}]"
+            name = self._op_name(given, at)
+            op = self.entry(name, given, f"{stack.place}/{name}", at, stack.name)
+            if name in seen and name != "?":
+                first = seen[name]
+                stated = "id" in given.value
+                self.checking.complain(
+                    given.value["id"].location if stated else op.type_location, f"{at}.{'id' if stated else 'type'}",
+                    f"a second operator of this stack is called '{name}', the first at {first.line}:{first.column}; "
+                    + ("choose another id" if stated else f'give this one an id: {{"type": "{name}", "id": "{name}_2", ...}}'))
+                continue
+            seen[name] = op.type_location
+            if op.role:
+                stack.ops.append(op)
+
+    def _op_name(self, item: Item, path: str) -> str:
+        if not item.is_object:
+            return "?"
+        given = item.value.get("id")
+        if given is not None:
+            text = self.checking.text(given, f"{path}.id", "an id")
+            if text and not ID.fullmatch(text):
+                self.checking.complain(given.location, f"{path}.id", f"an id is made of letters, digits, '_' and '-', and begins with "
+                                       f"a letter; {shown(text)} is not")
+            return text or "?"
+        kind = item.value.get("type")
+        return kind.value if kind is not None and kind.is_text else "?"
+
+
+def why_uniform(entry: Entry, parameter: Parameter) -> str:
+    """Return why a parameter cannot vary by particle, or '' where it can."""
+    if entry.role == "emit" and parameter.name not in ATTRIBUTES:
+        return f"{parameter.name} is one for the whole emitter; it may read time, frame and parameters"
+    if entry.kind in ("renders", "geometry"):
+        return f"{entry.type_name} has no particle to read; {parameter.name} may read time, frame and parameters"
+    return ""

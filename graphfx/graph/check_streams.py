@@ -1,0 +1,206 @@
+"""Who takes whose stream: `from`, `inputs`, references to nodes, and circles among them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from graphfx.errors import Location, suggestion
+from graphfx.graph.checking import Checking, declared
+from graphfx.graph.items import Item, shown
+from graphfx.graph.model import Entry, Graph, StreamReference
+from graphfx.graph.names import LOOKS
+from graphfx.node import Parameter
+
+_TAKES_FROM = ("stack", "image")
+
+
+def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> None:
+    """Fill `sources` and `inputs` of a node from the document; what they name is looked up later."""
+    given = item.value.get("from")
+    path = f"{entry.path}.from"
+    if entry.role == "group":
+        _group_inputs(checking, entry, item, inside)
+    elif inside:
+        return
+    elif entry.role in _TAKES_FROM or entry.kind == "operators":
+        if given is None:
+            checking.complain(item.location, entry.path, f'{entry.type_name} needs "from", the id of the node whose particles it takes')
+        else:
+            entry.sources = _streams(checking, given, path, entry.role == "image")
+
+
+def _group_inputs(checking: Checking, entry: Entry, item: Item, inside: bool) -> None:
+    group = entry.group
+    assert group is not None
+    given, named = item.value.get("from"), item.value.get("inputs")
+    if inside:
+        if named is not None:
+            checking.complain(named.location, f"{entry.path}.inputs", "a group in a stack takes the stack's stream; leave 'inputs' out")
+        return
+    if given is not None and len(group.inputs) != 1:
+        names = ", ".join(group.inputs) or "none"
+        checking.complain(given.location, f"{entry.path}.from", f"{entry.type_name} has {len(group.inputs)} inputs ({names}); "
+                          + ('write "inputs": {name: id, ...}' if group.inputs else "leave 'from' out"))
+    elif given is not None:
+        entry.inputs[next(iter(group.inputs))] = _streams(checking, given, f"{entry.path}.from", False)
+    if named is not None and not named.is_object:
+        checking.complain(named.location, f"{entry.path}.inputs", f"\"inputs\" should be an object {{name: id}}; here stands {named.words}")
+    for name, value in named.entries() if named is not None else ():
+        if name not in group.inputs:
+            checking.complain(named.key_location(name), f"{entry.path}.inputs.{name}",  # type: ignore[union-attr]
+                              f"{entry.type_name} has no input '{name}'." + suggestion(name, group.inputs),
+                              f"its inputs: {', '.join(group.inputs) or 'none'}")
+        else:
+            entry.inputs[name] = _streams(checking, value, f"{entry.path}.inputs.{name}", False)
+    for name in group.inputs:
+        if name not in entry.inputs and (given is None or len(group.inputs) != 1):
+            way = f'"from": id or "inputs": {{"{name}": id}}' if len(group.inputs) == 1 else f'"inputs": {{"{name}": id}}'
+            checking.complain(item.location, entry.path, f"{entry.type_name} needs a stream for its input '{name}': write {way}")
+
+
+def _streams(checking: Checking, item: Item, path: str, looks: bool) -> list[StreamReference]:
+    single = not item.is_list
+    found = []
+    for index, given in enumerate([item] if single else item.value):
+        at = path if single else f"{path}[{index}]"
+        if given.is_text:
+            node, _, port = given.value.partition(".")
+            found.append(StreamReference(node, port, given.location, at))
+        elif looks and given.is_object:
+            found += _look(checking, given, at)
+        else:
+            shape = "the id of a node, or {\"stream\": id, ...}" if looks else "the id of a node, or a list of them"
+            checking.complain(given.location, at, f"'from' should be {shape}; here stands {given.words}")
+    if not single and not item.value:
+        checking.complain(item.location, path, "the list is empty; name at least one node whose particles are taken")
+    return found
+
+
+def _look(checking: Checking, item: Item, path: str) -> list[StreamReference]:
+    checking.unknown_keys(item, path, ("stream", *LOOKS), "an entry of 'from'")
+    looks: dict[str, object] = {}
+    for key, choices in LOOKS.items():
+        given = item.value.get(key)
+        if given is None:
+            continue
+        if given.is_text and given.value in choices:
+            looks[key] = given.value
+        else:
+            hint = suggestion(given.value, choices) if given.is_text else ""
+            stands = shown(given.value) if given.is_text else given.words
+            checking.complain(given.location, f"{path}.{key}", f"{key} should be one of {', '.join(choices)}, not {stands}." + hint)
+    stream = item.value.get("stream")
+    if stream is None:
+        checking.complain(item.location, path, 'this entry needs "stream", the id of the node whose particles are drawn')
+        return []
+    text = checking.text(stream, f"{path}.stream", "a stream, the id of a node,")
+    node, _, port = text.partition(".")
+    return [StreamReference(node, port, stream.location, f"{path}.stream", looks)] if text else []
+
+
+def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -> bool:
+    """Complain unless a reference names a node that makes such a stream."""
+    name, path = reference.node, reference.path
+    if name in graph.inputs:
+        if reference.port:
+            checking.complain(reference.location, path, f"'{name}' is an input of this group, one stream; leave '.{reference.port}' out")
+        return not reference.port
+    node = graph.nodes.get(name)
+    if node is None:
+        makers = [*graph.inputs, *(known for known, entry in graph.nodes.items() if entry.streams)]
+        checking.complain(reference.location, path, f"there is no node '{name}'." + suggestion(name, makers),
+                          f"nodes that make a stream: {', '.join(makers) or 'none'}")
+        return False
+    if not node.role or (node.group and not node.group.sound):
+        return False
+    if not node.streams:
+        makers = [known for known, entry in graph.nodes.items() if entry.streams]
+        checking.complain(reference.location, path, f"'{name}' is a node of type {node.type_name}, which makes no stream of particles",
+                          f"nodes that make a stream: {', '.join(makers) or 'none'}")
+        return False
+    ports = [port for port in node.streams if port]
+    if reference.port and reference.port not in ports:
+        checking.complain(reference.location, path, f"'{name}' has no output '{reference.port}'." + suggestion(reference.port, ports),
+                          f"its outputs: {', '.join(ports)}" if ports else f"it makes one stream; write '{name}'")
+        return False
+    if not reference.port and len(ports) > 1:
+        checking.complain(reference.location, path, f"'{name}' has {len(ports)} outputs; write one of "
+                          + ", ".join(f"'{name}.{port}'" for port in ports))
+        return False
+    return True
+
+
+def check_references(checking: Checking, graph: Graph) -> None:
+    """Check all streams, references and selectors of a graph, then look for circles."""
+    for entry in walk(graph):
+        for reference in streams_of(entry):
+            check_stream(checking, graph, reference)
+        parameters = entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
+        for name, (target, location) in entry.references.items():
+            _check_node(checking, graph, entry, parameters[name], target, location)
+        if entry.only is not None and entry.only.type == "selector":
+            selector = Parameter("only", "selector", None)
+            _check_node(checking, graph, entry, selector, entry.only.value, entry.only.location)  # type: ignore[attr-defined]
+    _check_circles(checking, graph)
+
+
+def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Parameter, target: str, location: Location) -> None:
+    """Check a parameter that names a node; its `choices` are the node types that it may name."""
+    path = f"{entry.path}.{parameter.name}"
+
+    def fits(node: Entry) -> bool:
+        if parameter.type == "selector":
+            return node.kind == "selectors"
+        if parameter.type in ("mesh", "surface"):
+            return node.kind == "geometry"
+        return bool(node.streams) if parameter.type == "stream" else not parameter.choices or node.type_name in parameter.choices
+
+    wanted = " or ".join(parameter.choices) or {"node": "node", "mesh": "geometry"}.get(parameter.type, parameter.type)
+    known = [name for name, node in graph.nodes.items() if fits(node)]
+    note = f"nodes that fit: {', '.join(known) or 'none'}"
+    node = graph.nodes.get(target)
+    if node is None:
+        checking.complain(location, path, f"there is no node '{target}'." + suggestion(target, known), note,
+                          declared(entry.node_type) if entry.node_type and not known else "")
+    elif node.role and not fits(node):
+        checking.complain(location, path, f"{parameter.name} should be the id of a {wanted}; '{target}' is a node of type {node.type_name}", note)
+
+
+def walk(graph: Graph) -> Iterator[Entry]:
+    """Yield all nodes of a graph, and the operators of its stacks."""
+    for node in graph.nodes.values():
+        yield node
+        yield from node.ops
+
+
+def streams_of(entry: Entry) -> Iterator[StreamReference]:
+    """Yield all streams that a node takes."""
+    yield from entry.sources
+    for sources in entry.inputs.values():
+        yield from sources
+
+
+def _check_circles(checking: Checking, graph: Graph) -> None:
+    """Complain of each circle of nodes that take from one another, once, with its names."""
+    done: set[str] = set()
+    for start in graph.nodes:
+        trail: list[str] = []
+        waiting: list[Iterator[tuple[str, StreamReference]]] = []
+
+        def enter(name: str, trail: list[str] = trail, waiting: list[Iterator[tuple[str, StreamReference]]] = waiting) -> None:
+            trail.append(name)
+            waiting.append(iter([(reference.node, reference) for reference in streams_of(graph.nodes[name])]))
+
+        if start not in done:
+            enter(start)
+        while waiting:
+            name, reference = next(waiting[-1], ("", StreamReference("")))
+            if not name:
+                waiting.pop()
+                done.add(trail.pop())
+            elif name in trail:
+                circle = " -> ".join([*trail[trail.index(name):], name][::-1])
+                checking.complain(reference.location, reference.path, f"these nodes take from one another in a circle: {circle}; "
+                                  "particles must come from an emitter. Break it at one of them")
+            elif name in graph.nodes and name not in done:
+                enter(name)

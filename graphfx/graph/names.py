@@ -1,0 +1,51 @@
+"""The keys of a graph document, and which node takes which: the language's own words."""
+
+from __future__ import annotations
+
+import re
+
+TOP_KEYS = ("$schema", "graphfx", "doc", "seed", "time", "use", "params", "values", "inputs", "outputs", "expose", "nodes")
+TIME_KEYS = ("fps", "frames", "preroll", "substeps", "method", "tolerance", "precision")
+PARAM_KEYS = ("type", "default", "min", "max", "unit", "doc")
+PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "string", "path", "interval", "list")
+REFERENCE_TYPES = ("node", "stream", "selector", "surface", "mesh")
+"""Types of parameters that name another node."""
+METHODS = ("auto", "exact", "strang", "adaptive", "rk45", "sims")
+
+KEYS = {
+    "emit": ("type", "doc", "during", "enabled", "seed_key", "values", "set"),
+    "stack": ("type", "doc", "from", "only", "during", "enabled", "seed_key", "ops"),
+    "operators": ("type", "id", "doc", "from", "when", "only", "during", "enabled", "seed_key"),
+    "set": ("type", "id", "doc", "from", "when", "only", "during", "enabled", "seed_key", "set"),
+    "group": ("type", "id", "doc", "from", "inputs", "only", "during", "enabled", "seed_key"),
+    "image": ("type", "doc", "from", "enabled"),
+    "emitters": ("type", "doc", "from", "during", "enabled", "seed_key", "values", "set"),
+    "selectors": ("type", "doc", "seed_key"),
+    "renders": ("type", "doc", "enabled"),
+    "geometry": ("type", "doc", "seed_key"),
+}
+"""Keys besides the parameters, by role where the role is here, else by kind; in canonical order."""
+
+WHEN = ("birth", "step", "frame", "hit", "death")
+WHEN_ROLES = ("assign", "set", "spawn", "kill", "recycle")
+"""Roles of operators that act at a moment; all others act through the whole step."""
+LOOKS = {"blend": ("over", "add"), "falloff": ("linear", "gaussian", "disc"), "streak": ("exposed", "solid")}
+"""What an entry of an image's `from` may say, the default first."""
+
+VALUE_KEYS = {
+    "param": (), "expr": (), "keys": ("interpolation", "repeat"), "ramp": ("over",), "rand": ("per", "vary"),
+}
+"""The language's own values with their modifiers; all others are nodes of the kind `values`, with `per`."""
+INTERPOLATIONS = ("linear", "step", "smooth")
+REPEATS = ("hold", "loop", "mirror")
+SCOPES = ("life", "particle", "hit", "frame", "graph")
+
+ID = re.compile(r"[A-Za-z_][A-Za-z0-9_-]*")
+"""What a node's id looks like."""
+WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+"""What the name of a parameter or a value looks like, so that expressions can say it."""
+
+
+def keys_of(role: str, kind: str) -> tuple[str, ...]:
+    """Return the keys, besides parameters, that a node of this role and kind takes."""
+    return KEYS.get(role) or KEYS.get(kind, ("type", "doc"))

@@ -1,0 +1,118 @@
+"""What the values of one place may read: parameters, named values, and attributes where there is a particle."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphfx.errors import Location, suggestion
+from graphfx.graph.functions import CONSTANTS
+from graphfx.graph.literals import lane
+from graphfx.graph.values import Expression, Name, Node, ParameterValue, Random, Value, children
+from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Parameter
+
+READABLE = ATTRIBUTES | DERIVED_ATTRIBUTES
+ALWAYS = {"time": "float", "frame": "float"}
+_HIT = {"normal": "vec3", "point": "vec3", "speed": "float"}
+_ELSEWHERE = {
+    "birth": "an emitter's values are made at birth; birth.x is for operators",
+    "parent": "only what `spawn` makes has a parent",
+    "hit": 'there is a hit only where the operator says "when": "hit"',
+}
+
+
+@dataclass(frozen=True)
+class Scope:
+    """Where a value stands: `path` and `seed` are its owner's, `uniform` says why no particle may be read here, or ''."""
+
+    path: str
+    seed: str
+    params: dict[str, Parameter]
+    named: Callable[[str], Value | None]
+    names: frozenset[str] = frozenset()
+    uniform: str = ""
+    qualifiers: frozenset[str] = frozenset()
+    broken: frozenset[str] | set[str] = frozenset()
+
+    def resolve(self, word: str) -> tuple[Any, str] | str:
+        """Return what a name of an expression means, with its type, or the message that says why it means nothing."""
+        qualifier, dot, rest = word.partition(".")
+        if dot:
+            return self._parameter(rest) if qualifier == "param" else self._qualified(qualifier, rest)
+        if word in ALWAYS:
+            return Name(word), ALWAYS[word]
+        if word in self.names:
+            value = self.named(word)
+            return (value, lane(value.type)) if value is not None else (None, "")
+        if word in READABLE or word == "id":
+            if self.uniform:
+                return f"'{word}' cannot be read here: {self.uniform}"
+            return Name(word), lane(READABLE[word].type) if word in READABLE else "float"
+        if word in self.params:
+            return f"there is no name '{word}'. Did you mean 'param.{word}'?"
+        if word in ("param", "birth", "parent", "hit"):
+            return f"'{word}' needs a name after it, as in {word}.{next(iter(self.params), 'x')}"
+        known = [*self.names, *READABLE, *ALWAYS, *CONSTANTS, *(f"param.{name}" for name in self.params)]
+        return f"there is no name '{word}'." + suggestion(word, known, OTHER_NAMES)
+
+    def _parameter(self, rest: str) -> tuple[Any, str] | str:
+        name, _, component = rest.partition(".")
+        parameter = self.params.get(name)
+        if parameter is None and f"params.{name}" in self.broken:
+            return None, ""
+        if parameter is None:
+            known = ", ".join(self.params) or "none"
+            return f"the graph has no parameter '{name}'." + suggestion(name, self.params) + f" Its parameters: {known}"
+        kind = lane(parameter.type)
+        if kind == "interval":
+            if component not in ("start", "end"):
+                return f"'{name}' is an interval; read param.{name}.start or param.{name}.end"
+            kind = "float"
+        elif component:
+            return f"'{name}' is no interval; only those have .{component}"
+        if kind not in ("float", "vec3", "bool"):
+            return f"'{name}' is a parameter of type {parameter.type}; an expression reads numbers, vectors and conditions"
+        return ParameterValue(kind, name=name, component=component), kind
+
+    def _qualified(self, qualifier: str, rest: str) -> tuple[Any, str] | str:
+        if self.uniform:
+            return f"'{qualifier}.{rest}' cannot be read here: {self.uniform}"
+        if qualifier not in self.qualifiers:
+            return f"'{qualifier}.{rest}' cannot be read here: {_ELSEWHERE[qualifier]}"
+        known = _HIT if qualifier == "hit" else {name: lane(attribute.type) for name, attribute in ATTRIBUTES.items()}
+        if rest not in known:
+            return f"there is no '{qualifier}.{rest}'." + suggestion(rest, known, OTHER_NAMES)
+        return Name(f"{qualifier}.{rest}"), known[rest]
+
+
+@dataclass
+class Reader:
+    """Something that a value reads from the particle."""
+
+    what: str
+    location: Location | None = field(default=None)
+
+
+def particle_reader(tree: Any, seen: set[int] | None = None) -> Reader | None:
+    """Return the first thing in a value that differs from particle to particle, or None where it is uniform."""
+    seen = set() if seen is None else seen
+    if id(tree) in seen:
+        return None
+    seen.add(id(tree))
+    if isinstance(tree, Name) and tree.name not in ALWAYS:
+        return Reader(f"'{tree.name}'")
+    if isinstance(tree, Random) and tree.per not in ("frame", "graph"):
+        return Reader(f'a random number per {tree.per}; say "per": "graph" or "frame"', tree.location)
+    if isinstance(tree, Node) and tree.node_type is not None:
+        if tree.node_type.reads:
+            return Reader(f"the attribute '{tree.node_type.reads[0]}', by {tree.node_type.name}", tree.location)
+        if "id" in tree.node_type.reserved or ("draw" in tree.node_type.reserved and tree.per not in ("frame", "graph")):
+            return Reader(f'a random number per {tree.per}, by {tree.node_type.name}; say "per": "graph" or "frame"', tree.location)
+    for part in children(tree):
+        found = particle_reader(part, seen)
+        if found:
+            if found.location is None and isinstance(tree, Expression):
+                found.location = tree.location
+            return found
+    return None
