@@ -25,6 +25,15 @@ _ANNOTATIONS = {float: "float", int: "int", bool: "bool", str: "string", Vec3: "
 _BY_TEXT = {"float": "float", "int": "int", "bool": "bool", "str": "string", "Vec3": "vec3"}
 
 
+RESPONSE = (
+    Parameter("resilience", "float", 0.5, "", 0.0, 1.0, (), "Share of the speed across the surface that a bounce gives back."),
+    Parameter("friction", "float", 0.0, "", 0.0, 1.0, (), "Share of the speed along the surface that a bounce takes."),
+    Parameter("friction_threshold", "float", 0.0, "m/s", 0.0, None, (), "Friction does not act on a particle slower than this."),
+    Parameter("rest_speed", "float", 0.01, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest."),
+)
+"""Parameters that every surface has besides its function's: how a particle answers to the contact."""
+
+
 @dataclass(frozen=True)
 class ParameterMark:
     """What `param(...)` leaves in a signature until the decorator reads it."""
@@ -135,6 +144,8 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     result = _result_types(signature.return_annotation)
     if not language and not result:
         raise fail("the function needs a return annotation: float, bool, Vec3 or tuple[...] of them")
+    if role == "surface":
+        parameters |= {parameter.name: parameter for parameter in RESPONSE}
     return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters,
                     result, writes, neutral, exact_if, branches, language, doc, location)
 

@@ -1,0 +1,57 @@
+"""When an emitter's particles are born, and when they die."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphfx.graph.values import Literal
+from graphfx.motion.clock import Interval
+from graphfx.plan.make import EmitterPlan, plain_value
+
+
+@dataclass
+class Births:
+    """The births of one emitter. `made` is the integral of the rate so far; the k-th particle is born as it passes k.
+
+    For a constant rate that instant is begin + k / rate whatever the frames are; a rate that changes is
+    taken at the middle of each interval.
+    """
+
+    plan: EmitterPlan
+    start: float
+    made: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Note when the emitter begins and ends."""
+        during = self.plan.node.during or (-math.inf, math.inf)
+        self.begin, self.finish = max(self.start, during[0]), during[1]
+        self.rate = self.plan.node.arguments["rate"]
+
+    def at_start(self) -> np.ndarray:
+        """Return the times of the particles born at the very beginning: the first, if its time is the start."""
+        rate = float(plain_value(self.rate, self.start))
+        return np.full(1 if rate > 0 and self.begin == self.start and self.finish > self.start else 0, self.start)
+
+    def within(self, interval: Interval) -> np.ndarray:
+        """Return the times of birth in (start, end], in order [s]."""
+        low, high = max(interval.start, self.begin), min(interval.end, self.finish)
+        if high < low:
+            return np.zeros(0)
+        if isinstance(self.rate, Literal):
+            return self._steady(float(self.rate.value), interval, high)
+        rate = float(plain_value(self.rate, (low + high) / 2, interval.frame))
+        if not rate > 0:
+            return np.zeros(0)
+        before, self.made = self.made, self.made + rate * (high - low)
+        numbers = np.arange(math.floor(before) + 1, math.floor(self.made) + 1)
+        return np.clip(low + (numbers - before) / rate, low, high)
+
+    def _steady(self, rate: float, interval: Interval, high: float) -> np.ndarray:
+        if not rate > 0:
+            return np.zeros(0)
+        already = math.floor((interval.start - self.begin) * rate) + 1 if interval.start >= self.begin else 0
+        numbers = np.arange(already, math.floor((high - self.begin) * rate) + 1)
+        return np.clip(self.begin + numbers / rate, interval.start, interval.end)

@@ -1,0 +1,83 @@
+"""The two ways to run a program: on blocks, and in plain Python. They give the same bits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Protocol
+
+import numpy as np
+
+from graphfx.program import Program
+from graphfx.program.reference import run_particle
+
+Arrays = Mapping[str, tuple[np.ndarray, ...]]
+
+
+class Executor(Protocol):
+    """Runs programs over rows of columns."""
+
+    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
+            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+        """Run over `count` rows, or those listed, less the excluded ones; return the rows rejected."""
+        ...
+
+
+class BlockExecutor:
+    """Runs on the block machine; a program is assembled when first seen."""
+
+    def __init__(self, precision: int = 32, threads: int = 1):
+        self.precision = precision
+        self.threads = threads
+        self._assembled: dict[int, Any] = {}
+
+    def prepare(self, program: Program) -> Any:
+        """Assemble a program, compiling kernels never used before."""
+        from graphfx.machine.assemble import assemble
+
+        if id(program) not in self._assembled:
+            self._assembled[id(program)] = assemble(program, self.precision)
+        return self._assembled[id(program)]
+
+    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
+            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+        """Run on blocks of 256 rows, on all threads."""
+        from graphfx.machine.run import NO_BITS, NO_ROWS, Rows, bits_of, run
+
+        bits = bits_of(excluded, count) if excluded is not None and excluded.size else NO_BITS
+        rows = Rows(count if listed is None else len(listed), NO_ROWS if listed is None else listed, bits)
+        return run(self.prepare(program), rows, arrays, uniforms, by_place, now, self.threads)
+
+
+class ReferenceExecutor:
+    """Runs in plain Python, a particle at a time: slow, and what the block machine is held to."""
+
+    def __init__(self, precision: int = 32):
+        self.precision = precision
+
+    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
+            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+        """Run row by row."""
+        left_out = set() if excluded is None else set(excluded.tolist())
+        rejected = []
+        for place, row in enumerate(range(count) if listed is None else listed.tolist()):
+            if row in left_out:
+                continue
+            loaded = {name: self._read(name, column.type, arrays, by_place, row, place, now) for name, column in program.loads.items()}
+            values = run_particle(program, loaded, uniforms, self.precision)
+            if program.rejects is not None and values.get(id(program.rejects)):
+                rejected.append(row)
+                continue
+            for name, column in program.stores.items():
+                value = values[id(column)]
+                parts = by_place.get(name) or arrays[name]
+                target = place if name in by_place else row
+                for part, number in zip(parts, value if column.type == "vec3" else (value,), strict=True):
+                    part[target] = number
+        return np.array(rejected, np.int64)
+
+    @staticmethod
+    def _read(name: str, type_: str, arrays: Arrays, by_place: Arrays, row: int, place: int, now: float) -> Any:
+        parts, index = (by_place[name], place) if name in by_place else (arrays[name], row)
+        if name == "age":
+            return now - parts[0][index]
+        return tuple(part[index] for part in parts) if type_ == "vec3" else parts[0][index]

@@ -1,0 +1,181 @@
+"""Assemble a program: give every operand a place in the scratch, and write the code of the loop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from graphfx.lanes.memory import FLOAT_LANES
+from graphfx.machine.draw import draw_kernel
+from graphfx.machine.kernels import DTYPES, kernel_of
+from graphfx.machine.loop import CALL, LOOP
+from graphfx.machine.transfer import BLOCK
+from graphfx.program import COMPONENTS, Call, Column, Draw, Loop, Operand, Program, Uniform
+
+CALL_HEADER = 3
+
+
+@dataclass
+class Assembled:
+    """A program ready to run: `template` is the scratch with all constants in place."""
+
+    program: Program
+    precision: int
+    code: np.ndarray
+    template: np.ndarray
+    masks: np.ndarray
+    places: dict[int, int]
+    vectors: list[Uniform] = field(default_factory=list)
+
+    @property
+    def lanes(self) -> int:
+        """Return the number of lanes over which a uniform is splatted."""
+        return FLOAT_LANES[DTYPES[self.precision]]
+
+    def place(self, operand: Operand) -> int:
+        """Return the first element of an operand in the scratch, or the first lane of a mask."""
+        return self.places[id(operand)]
+
+    def set_uniform(self, scratch: np.ndarray, masks: np.ndarray, uniform: Uniform, value: Any) -> None:
+        """Splat a value: a number, three for a vec3, a truth for a mask, an integer for a word."""
+        place = self.place(uniform)
+        if uniform.type == "bool":
+            masks[place >> 4 : (place + BLOCK) >> 4] = 0xFFFF if value else 0
+        elif uniform.type in ("word", "id"):
+            words = scratch.view(np.uint32 if self.precision == 32 else np.uint64)
+            for k in range(COMPONENTS[uniform.type]):
+                words[place + k * self.lanes : place + (k + 1) * self.lanes] = int(value) >> (32 * k) & 0xFFFFFFFF
+        else:
+            values = value if COMPONENTS[uniform.type] > 1 else (value,)
+            for k, number in enumerate(values):
+                scratch[place + k * self.lanes : place + (k + 1) * self.lanes] = number
+
+
+def _operands_of(instruction: Any) -> Iterable[Operand]:
+    if isinstance(instruction, Call):
+        return (*instruction.operands, *instruction.results, instruction.mask)
+    if isinstance(instruction, Draw):
+        return (instruction.identity, instruction.life, instruction.cell, instruction.result, instruction.mask)
+    return (instruction.mask, *(o for inner in instruction.body for o in _operands_of(inner)))
+
+
+def _spans(program: Program) -> dict[int, tuple[Operand, int, int]]:
+    """Return first and last use of every column, counted in outermost instructions."""
+    spans: dict[int, tuple[Operand, int, int]] = {}
+    end = len(program.body)
+    for column in program.loads.values():
+        spans[id(column)] = (column, 0, 0)
+    for index, instruction in enumerate(program.body):
+        for operand in _operands_of(instruction):
+            first = spans[id(operand)][1] if id(operand) in spans else index
+            spans[id(operand)] = (operand, first, index)
+    kept = [*program.stores.values(), program.context, *([program.rejects] if program.rejects else [])]
+    for column in kept:
+        first = spans[id(column)][1] if id(column) in spans else 0
+        spans[id(column)] = (column, first, end)
+    return spans
+
+
+class _Places:
+    """Hands out places, and takes back those of columns that are read no more."""
+
+    def __init__(self, start: int, unit: int):
+        self.top = start
+        self.unit = unit
+        self.free: dict[int, list[int]] = {}
+
+    def take(self, count: int) -> int:
+        waiting = self.free.get(count)
+        if waiting:
+            return waiting.pop()
+        place = self.top
+        self.top += count * self.unit
+        return place
+
+    def give(self, place: int, count: int) -> None:
+        self.free.setdefault(count, []).append(place)
+
+
+def assemble(program: Program, precision: int = 32) -> Assembled:
+    """Give places and write code; kernels that were never compiled are compiled here."""
+    lanes = FLOAT_LANES[DTYPES[precision]]
+    spans = _spans(program)
+    uniforms = [operand for operand, _, _ in spans.values() if isinstance(operand, Uniform)]
+    places: dict[int, int] = {}
+    splats, mask_lanes = _Places(0, lanes), _Places(BLOCK, BLOCK)
+    same: dict[Any, int] = {}
+    for uniform in uniforms:
+        key = (uniform.type, uniform.value) if uniform.value is not None else id(uniform)
+        if key not in same:
+            target = mask_lanes if uniform.type == "bool" else splats
+            same[key] = target.take(max(COMPONENTS[uniform.type], 1))
+        places[id(uniform)] = same[key]
+    columns = _Places((splats.top + 15) // 16 * 16, BLOCK)
+    places[id(program.context)] = 0
+    _place_columns(spans, places, columns, mask_lanes, program)
+    dtype = np.float32 if precision == 32 else np.float64
+    code = np.array(_encode(program.body, places, precision) or [], np.int64)
+    made = Assembled(program, precision, code, np.zeros(columns.top, dtype), np.zeros(mask_lanes.top // 16, np.uint16), places)
+    for uniform in uniforms:
+        if uniform.value is not None:
+            made.set_uniform(made.template, made.masks, uniform, uniform.value)
+        else:
+            made.vectors.append(uniform)
+    return made
+
+
+def _place_columns(spans: Any, places: dict[int, int], columns: _Places, masks: _Places, program: Program) -> None:
+    waiting = sorted((first, order, key) for order, (key, (operand, first, _)) in enumerate(spans.items())
+                     if not isinstance(operand, Uniform) and operand is not program.context)
+    busy: list[tuple[int, int]] = []
+    for first, _, key in waiting:
+        for last, other in [entry for entry in busy if entry[0] < first]:
+            busy.remove((last, other))
+            operand = spans[other][0]
+            (masks if operand.type == "bool" else columns).give(places[other], max(COMPONENTS[operand.type], 1))
+        operand, _, last = spans[key]
+        target = masks if operand.type == "bool" else columns
+        places[key] = target.take(max(COMPONENTS[operand.type], 1))
+        busy.append((last, key))
+
+
+def _read(operand: Operand, places: dict[int, int], lanes: int) -> list[int]:
+    place = places[id(operand)]
+    uniform = isinstance(operand, Uniform)
+    if operand.type == "bool":
+        return [place, -1]
+    step, lane_mask = (lanes, 0) if uniform else (BLOCK, -1)
+    return [number for k in range(COMPONENTS[operand.type]) for number in (place + k * step, lane_mask)]
+
+
+def _written(column: Column, places: dict[int, int]) -> list[int]:
+    return [places[id(column)] + k * BLOCK for k in range(max(COMPONENTS[column.type], 1))]
+
+
+def _encode(body: list[Any], places: dict[int, int], precision: int) -> list[int]:
+    lanes = FLOAT_LANES[DTYPES[precision]]
+    code: list[int] = []
+    for instruction in body:
+        if isinstance(instruction, Loop):
+            inner = _encode(instruction.body, places, precision)
+            code += [LOOP, len(inner) + 4, places[id(instruction.mask)], instruction.limit, *inner]
+            continue
+        operands = [places[id(instruction.mask)]]
+        if isinstance(instruction, Draw):
+            address = draw_kernel(precision).address
+            for operand in (instruction.identity, instruction.life, instruction.cell):
+                operands += _read(operand, places, lanes)
+            operands += [*_written(instruction.result, places), *instruction.key]
+        else:
+            address = kernel_of(instruction.function, precision).address
+            if instruction.function.bundle:
+                operands.append(instruction.function.number)
+            for operand in instruction.operands:
+                operands += _read(operand, places, lanes)
+            for column in instruction.results:
+                operands += _written(column, places)
+        code += [CALL, len(operands) + CALL_HEADER, address, *operands]
+    return code

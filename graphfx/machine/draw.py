@@ -1,0 +1,49 @@
+"""Random numbers on lanes: Philox4x32-10, the same bits as `graphfx.math.random`."""
+
+from __future__ import annotations
+
+from functools import cache
+
+from graphfx.lanes import inlined
+from graphfx.lanes.cache import engine_digest
+from graphfx.lanes.memory import FLOAT_LANES, multiply_high_low, word_constant
+from graphfx.lanes.types import Real
+from graphfx.machine.kernels import DTYPES, Kernel, compile_source
+from graphfx.math.random import PHILOX_MULTIPLIERS, PHILOX_WEYL
+
+FIRST, SECOND = PHILOX_MULTIPLIERS
+WEYL_FIRST, WEYL_SECOND = PHILOX_WEYL
+
+SOURCE = """def kernel(S, operands, M):
+    C = carray(operands, (64,))
+    for l in range(0, 256, {width}):
+        on = mask_at(R, M, C[0] + l)
+        if any_lane(on):
+            w = body0(R, word_at(R, S, C[1] + (l & C[2])), word_at(R, S, C[3] + (l & C[4])),
+                      word_at(R, S, C[5] + (l & C[6])), word_at(R, S, C[7] + (l & C[8])), C[13], C[14])
+            store_at(R, S, C[9] + l, on, uniform_of(R, w[0]))
+            store_at(R, S, C[10] + l, on, uniform_of(R, w[1]))
+            store_at(R, S, C[11] + l, on, uniform_of(R, w[2]))
+            store_at(R, S, C[12] + l, on, uniform_of(R, w[3]))
+"""
+"""Operands: mask, id (two words), life, cell, four results, the two words of the key."""
+
+
+@inlined
+def philox_lanes(model, a, b, c, d, first_key, second_key):
+    """Return four words per lane from a counter of four words and a key of two."""
+    for turn in range(10):
+        high0, low0 = multiply_high_low(a, FIRST)
+        high1, low1 = multiply_high_low(c, SECOND)
+        a = high1 ^ b ^ word_constant(model, first_key + turn * WEYL_FIRST)
+        c = high0 ^ d ^ word_constant(model, second_key + turn * WEYL_SECOND)
+        b, d = low1, low0
+    return a, b, c, d
+
+
+@cache
+def draw_kernel(precision: int = 32) -> Kernel:
+    """Return the kernel that draws four numbers for each particle."""
+    dtype = DTYPES[precision]
+    width = FLOAT_LANES[dtype]
+    return compile_source("draw", SOURCE.format(width=width), [philox_lanes], Real(dtype, width), engine_digest("math", "lanes", "machine"))

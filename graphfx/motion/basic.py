@@ -1,0 +1,154 @@
+"""The small functions from which motion programs are put together; one kernel holds them all."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphfx.math import Vec3, dot, length, maximum, minimum, where
+from graphfx.program import Bundle
+
+MOTION = Bundle("motion")
+
+
+@MOTION.function("float", "float")
+def copy_number(a: Any) -> Any:
+    """a."""
+    return a
+
+
+@MOTION.function("vec3", "vec3")
+def copy_vector(a: Any) -> Any:
+    """a."""
+    return a
+
+
+@MOTION.function("float", "float")
+def half(dt: Any) -> Any:
+    """dt / 2."""
+    return dt * 0.5
+
+
+@MOTION.function("float float", "float")
+def sum_of_numbers(a: Any, b: Any) -> Any:
+    """a + b."""
+    return a + b
+
+
+@MOTION.function("vec3 vec3", "vec3")
+def sum_of_vectors(a: Any, b: Any) -> Any:
+    """a + b."""
+    return a + b
+
+
+@MOTION.function("float float", "float")
+def difference(a: Any, b: Any) -> Any:
+    """a - b."""
+    return a - b
+
+
+@MOTION.function("vec3 vec3", "vec3")
+def difference_of_vectors(a: Any, b: Any) -> Any:
+    """a - b."""
+    return a - b
+
+
+@MOTION.function("vec3 vec3 float", "vec3")
+def advance(value: Any, rate: Any, dt: Any) -> Any:
+    """value + rate dt."""
+    return value + rate * dt
+
+
+@MOTION.function("float float", "bool")
+def is_less(a: Any, b: Any) -> Any:
+    """a < b."""
+    return a < b
+
+
+@MOTION.function("float float", "bool")
+def is_equal(a: Any, b: Any) -> Any:
+    """a == b."""
+    return a == b
+
+
+@MOTION.function("bool bool", "bool")
+def both(a: Any, b: Any) -> Any:
+    """a and b."""
+    return a & b
+
+
+@MOTION.function("bool bool", "bool")
+def either(a: Any, b: Any) -> Any:
+    """a or b."""
+    return a | b
+
+
+@MOTION.function("bool bool", "bool")
+def but_not(a: Any, b: Any) -> Any:
+    """a and not b."""
+    return a & ~b
+
+
+@MOTION.function("float float", "float")
+def later(a: Any, b: Any) -> Any:
+    """The greater of two times."""
+    return maximum(a, b)
+
+
+@MOTION.function("float float", "float")
+def earlier(a: Any, b: Any) -> Any:
+    """The lesser of two times."""
+    return minimum(a, b)
+
+
+@MOTION.function("float float float", "bool")
+def is_within(time: Any, start: Any, end: Any) -> Any:
+    """start <= time < end."""
+    return (time >= start) & (time < end)
+
+
+@MOTION.function("vec3 vec3 vec3 float float float", "vec3")
+def capture(tail: Any, first: Any, last: Any, begin: Any, end: Any, opening: Any) -> Any:
+    """The place at the opening of the shutter, on the straight way from `first` to `last`; `tail` if that is not then."""
+    share = where(end > begin, (opening - begin) / (end - begin), 0.0)
+    return where((begin <= opening) & (opening <= end), first + (last - first) * share, tail)
+
+
+# The paper's scheme, `sims`.
+
+
+@MOTION.function("vec3 float float", "vec3")
+def sims_scale(velocity: Any, damping: Any, dt: Any) -> Any:
+    """V' = V max(1 - d dt, 0). [Sims 1990, 3.4.1]"""
+    return velocity * maximum(1.0 - damping * dt, 0.0)
+
+
+@MOTION.function("vec3 vec3 vec3 float", "vec3")
+def sims_move(position: Any, before: Any, velocity: Any, dt: Any) -> Any:
+    """P' = P + (V + V') / 2 dt. [Sims 1990, 3]"""
+    return position + (before + velocity) * (dt * 0.5)
+
+
+@MOTION.function("vec3 vec3 float vec3 float float float", "vec3 vec3 bool")
+def sims_bounce(position: Any, velocity: Any, distance: Any, normal: Any, resilience: Any, friction: Any, threshold: Any) -> Any:
+    """P' = P - 2 ((P - S) . N) N, V' = (1 - mu) Vt - eps Vn, for what has passed the surface. [Sims 1990, 3.4.3]
+
+    The third result tells whether the particle was inside. Friction does not act below `threshold` [m/s].
+    """
+    inside = distance < 0.0
+    along = normal * dot(velocity, normal)
+    across = velocity - along
+    slowed = where(length(velocity) < threshold, 0.0, friction)
+    bounced = across * (1.0 - slowed) - along * resilience
+    return where(inside, position - normal * (distance * 2.0), position), where(inside, bounced, velocity), inside
+
+
+@MOTION.function("vec3", "float")
+def damping_of(first: Any) -> Any:
+    """d of the matrix -d 1 + [w]x, from its action on e_x."""
+    return -first.x
+
+
+@MOTION.function("vec3 vec3", "vec3")
+def spin_of(first: Any, second: Any) -> Any:
+    """w of the matrix -d 1 + [w]x, from its actions on e_x and e_y."""
+    return Vec3(second.z, -first.z, first.y)

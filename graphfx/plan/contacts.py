@@ -1,0 +1,134 @@
+"""Write contacts with surfaces: for whole steps only whether there is one, in own time where and what follows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from graphfx.motion import basic, contact
+from graphfx.plan.motion import Moment, Motion, Mover, State
+from graphfx.program import Builder, Column, Operand, Uniform
+
+SEARCH_LIMIT = 60
+"""Evaluations in the search for one contact; ten are usual."""
+RESOLUTION = {32: 2.0**-20, 64: 2.0**-49}
+"""Eight units in the last place."""
+
+
+class Contacts:
+    """The surfaces of one emitter's stack."""
+
+    def __init__(self, motion: Motion, precision: int):
+        self.motion = motion
+        self.surfaces = motion.of("surface")
+        self.resolution = Uniform("8 eps", "float", RESOLUTION[precision])
+        self.zero = Uniform("0", "float", 0.0)
+
+    def _distance(self, surface: Mover, moment: Moment, state: State) -> tuple[Column, Column]:
+        moment.builder.note = surface.node.path
+        operands = self.motion.arguments(surface, moment, state)
+        distance, normal = moment.builder.call(surface.function, *operands, name="distance")
+        return distance, normal
+
+    def _response(self, surface: Mover, moment: Moment, names: tuple[str, ...]) -> list[Operand]:
+        return [moment.writer.argument(surface.node.arguments[name]) for name in names]
+
+    def main_step(self, moment: Moment, state: State, event: Column | None) -> Column | None:
+        """Write, after a whole step, which particles have met a surface; `sims` bounces them at once."""
+        builder = moment.builder
+        for surface in self.surfaces:
+            distance, normal = self._distance(surface, moment, state)
+            if self.motion.method == "sims":
+                response = self._response(surface, moment, ("resilience", "friction", "friction_threshold"))
+                hit = Column("hit", "bool")
+                into = (state.position, state.velocity, hit)
+                builder.call(basic.sims_bounce, *into[:2], distance, normal, *response, into=into)  # type: ignore[arg-type]
+                continue
+            inside = builder.call(contact.is_inside, distance, name="inside")
+            event = inside if event is None else builder.call(basic.either, event, inside, name="event")
+        return event
+
+    def own_step(self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column,
+                 resting: Column | None) -> None:
+        """Write one step that stops at the first contact; `step` becomes the time that was used."""
+        whole = moment_of(builder, step)
+        if self.motion.method == "sims" or not self.surfaces:
+            self.motion.step(whole, state)
+            self.main_step(whole, state, None)
+            return
+        first = {"position": builder.call(basic.copy_vector, state.position, name="first position"),
+                 "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity")}
+        starts = [self._distance(surface, whole, state) for surface in self.surfaces]
+        self.motion.step(whole, state)
+        ends = [self._distance(surface, whole, state)[0] for surface in self.surfaces]
+        hits = [builder.call(contact.is_inside, distance, name="inside") for distance in ends]
+        best = builder.call(basic.copy_number, step, name="contact time")
+        times = []
+        for surface, start, end, hit in zip(self.surfaces, starts, ends, hits, strict=True):
+            found = self._search(surface, builder.under(hit), moment_of, state, first, start, end, step)
+            times.append(found)
+            builder.under(hit).call(basic.earlier, found, best, into=best)
+        met = hits[0]
+        for hit in hits[1:]:
+            met = builder.call(basic.either, met, hit, name="met")
+        inner = builder.under(met)
+        self._return(inner, state, first)
+        self.motion.step(moment_of(inner, best), state)
+        slides: Column | None = None
+        for surface, hit, time in zip(self.surfaces, hits, times, strict=True):
+            chosen = builder.call(basic.both, hit, builder.under(hit).call(basic.is_equal, time, best), name="chosen")
+            slid = self._answer(surface, builder.under(chosen), moment_of, state, best, resting)
+            slides = slid if slides is None else builder.call(basic.either, slides, slid)
+        if slides is not None:
+            stuck = builder.call(basic.both, slides, builder.under(slides).call(basic.is_equal, best, self.zero), name="stuck")
+            self._slide(builder.under(stuck), moment_of, state, step)
+            builder.under(stuck).call(basic.copy_number, step, into=best)
+        inner.call(basic.copy_number, best, into=step)
+
+    def _slide(self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column) -> None:
+        """Write a whole step along the surfaces, for particles that press on one without friction."""
+        moment = moment_of(builder, step)
+        self.motion.step(moment, state)
+        for surface in self.surfaces:
+            distance, normal = self._distance(surface, moment, state)
+            into = (state.position, state.velocity)
+            builder.call(contact.slide, *into, distance, normal, into=into)  # type: ignore[arg-type]
+
+    @staticmethod
+    def _return(builder: Builder, state: State, first: dict[str, Column]) -> None:
+        """Go back to the start of the step."""
+        builder.call(basic.copy_vector, first["position"], into=state.position)  # type: ignore[arg-type]
+        builder.call(basic.copy_vector, first["velocity"], into=state.velocity)  # type: ignore[arg-type]
+
+    def _search(self, surface: Mover, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State,
+                first: dict[str, Column], start: tuple[Column, Column], end: Column, step: Column) -> Column:
+        """Write the search for the instant of contact; return its column."""
+        builder.note = f"{surface.node.path}: find the contact"
+        tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
+        a, at_a, b, at_b, touching, at_once = builder.call(
+            contact.start_search, start[0], end, start[1], first["velocity"], step, tolerance, name="bracket")
+        time = builder.call(basic.copy_number, a, name="time of contact")
+        side = builder.call(basic.difference, a, a, name="side")
+        searching = builder.call(basic.but_not, builder.mask, at_once, name="searching")
+        inner = builder.loop(searching, SEARCH_LIMIT, builder.note)
+        inner.call(contact.propose, a, at_a, b, at_b, into=time)
+        self._return(inner, state, first)
+        moment = moment_of(inner, time)
+        self.motion.step(moment, state)
+        distance, _ = self._distance(surface, moment, state)
+        bracket = (a, at_a, b, at_b, side)
+        inner.call(contact.narrow, *bracket, time, distance, touching, into=bracket)
+        inner.call(contact.is_open, a, b, distance, step, tolerance, self.resolution, into=searching)
+        return time
+
+    def _answer(self, surface: Mover, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State,
+                time: Column, resting: Column | None) -> Column:
+        """Write what a surface does to the particles that meet it; return which of them slide."""
+        moment = moment_of(builder, time)
+        distance, normal = self._distance(surface, moment, state)
+        response = self._response(surface, moment, ("resilience", "friction", "friction_threshold", "rest_speed"))
+        stopped, sliding = Column("stopped", "bool"), Column("sliding", "bool")
+        into = (state.position, state.velocity, stopped, sliding)
+        builder.call(contact.respond, *into[:2], distance, normal, *response, into=into)  # type: ignore[arg-type]
+        if resting is not None:
+            builder.under(builder.program.context).call(basic.either, resting, stopped, into=resting)
+        return sliding

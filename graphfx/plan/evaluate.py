@@ -1,0 +1,40 @@
+"""Find values when the plan is made: constants, and what the frames need (cameras, rates)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphfx.errors import GraphError, Problem
+from graphfx.graph.values import Value
+from graphfx.math import Vec3
+from graphfx.plan.values import Rate, Scope, StepValues, ValueWriter, find_step_values, rate_of
+from graphfx.program import Uniform
+
+
+def _nothing(name: str) -> Any:
+    raise KeyError(name)
+
+
+def particle_free_scope(seed: int = 0) -> Scope:
+    """Return the scope of a place where there are no particles."""
+    return Scope(seed, "", _nothing, _nothing, lambda name: True)  # type: ignore[arg-type]
+
+
+def constant_value(tree: Any, precision: int = 64, seed: int = 0) -> Any:
+    """Return the value of a tree that depends on nothing."""
+    return timed_value(tree, 0.0, 0, precision, seed)
+
+
+def timed_value(tree: Any, time: float, frame: int, precision: int = 64, seed: int = 0) -> Any:
+    """Return the value of a tree that depends on time alone: a float, a bool, or a tuple of three floats."""
+    scope = particle_free_scope(seed)
+    if rate_of(tree, scope) == Rate.PARTICLE:
+        place = tree if isinstance(tree, Value) else None
+        raise GraphError(Problem("this value must be one for all: it may depend on time, not on particles",
+                                 *((place.location, place.path) if place else ())))
+    steps = StepValues()
+    operand = ValueWriter(steps.builder, scope, {}, steps, precision).operand(tree)
+    value = operand.value if isinstance(operand, Uniform) and operand.value is not None else None
+    if value is None:
+        value = find_step_values(steps, time, frame, precision)[id(operand)]
+    return tuple(float(part) for part in value) if isinstance(value, (tuple, Vec3)) else value

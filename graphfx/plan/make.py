@@ -1,0 +1,157 @@
+"""Make a plan: what will really run, and why the rest will not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from graphfx.errors import GraphError, Problem
+from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal, Value
+from graphfx.node import INFINITY
+from graphfx.plan.birth import write_birth
+from graphfx.plan.evaluate import timed_value
+from graphfx.plan.liveness import Attributes, find_attributes
+from graphfx.plan.motion import Motion, Mover, mover_of
+from graphfx.plan.schedule import Schedule, make_schedule
+from graphfx.plan.steps import FrameProgram, FrameWriter
+from graphfx.program import Program
+
+METHODS = ("auto", "exact", "strang", "sims")
+DRAWN = frozenset({"position", "radius", "color", "opacity"})
+"""Attributes that a picture reads."""
+
+
+@dataclass
+class EmitterPlan:
+    """One emitter's particles: their columns, their operators, their programs.
+
+    `main` and `own` are None where nothing moves. `method` is how motion is computed, `reason` why.
+    """
+
+    node: FlatNode
+    operators: list[FlatNode]
+    attributes: Attributes
+    method: str
+    reason: str
+    birth: Program
+    main: FrameProgram | None
+    own: FrameProgram | None
+    motion: Motion
+
+    @property
+    def path(self) -> str:
+        """Return the emitter's path."""
+        return self.node.path
+
+    @property
+    def programs(self) -> list[Program]:
+        """Return all programs, births first."""
+        return [self.birth, *(made.program for made in (self.main, self.own) if made is not None)]
+
+    @property
+    def life(self) -> Value | None:
+        """Return the life that all particles have, or None where each has its own."""
+        return self.attributes.constants.get("life")
+
+
+@dataclass
+class ImagePlan:
+    """One image: `emitters` are the particles that it draws, each with how it looks."""
+
+    node: FlatNode
+    camera: FlatNode
+    streams: list[tuple[str, dict[str, Any]]]
+
+    def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
+        """Return one of the image's parameters."""
+        return plain_value(self.node.arguments[name], time, frame)
+
+
+@dataclass
+class Plan:
+    """A whole graph, ready to cook."""
+
+    flat: FlatGraph
+    schedule: Schedule
+    emitters: dict[str, EmitterPlan]
+    images: list[ImagePlan]
+
+    @property
+    def precision(self) -> int:
+        """Return 32 or 64: the bits of a real."""
+        return self.flat.time.precision
+
+
+def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
+    """Return a value that no particle has a part in; text and lists as they are."""
+    if isinstance(value, Literal):
+        return value.value
+    return timed_value(value, time, frame)
+
+
+def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
+    """Plan a flattened graph. `prune=False` keeps what could be left out, to show that it changes nothing."""
+    schedule = make_schedule(flat, flat.time.precision, prune=prune)
+    nodes = flat.nodes
+    images = [_image(nodes[path], schedule, flat) for path in schedule.order if nodes[path].node_type.role == "image"]
+    emitters = {path: _emitter(nodes[path], schedule, flat, images) for path in schedule.order
+                if nodes[path].node_type.role == "emit"}
+    return Plan(flat, schedule, emitters, images)
+
+
+def _image(node: FlatNode, schedule: Schedule, flat: FlatGraph) -> ImagePlan:
+    streams: list[tuple[str, dict[str, Any]]] = []
+    for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
+        for top in schedule.kept(source, flat):
+            above = [path for path in (*schedule.upstream(top), top) if flat.nodes[path].node_type.role == "emit"]
+            streams += [(path, dict(look)) for path in above if path not in [name for name, _ in streams]]
+    return ImagePlan(node, flat.nodes[node.references["camera"]], streams)
+
+
+def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]:
+    return [flat.nodes[name] for name in schedule.order
+            if flat.nodes[name].node_type.kind == "operators" and path in schedule.upstream(name)]
+
+
+def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan]) -> EmitterPlan:
+    operators = _operators(node.path, schedule, flat)
+    movers = [mover_of(operator) for operator in operators]
+    shown = [image for image in images if node.path in dict(image.streams)]
+    shutter = max((float(image.value("shutter")) for image in shown), default=0.0)
+    attributes = find_attributes(node, operators, set(DRAWN), shutter > 0)
+    method, reason = choose_method(movers, flat)
+    has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+    motion = Motion(movers, method, has_velocity)
+    writer = FrameWriter(node, attributes, motion, flat.seed, flat.time.precision, flat.time.substeps)
+    moves = bool(movers) or has_velocity
+    birth = write_birth(node, attributes, flat.seed, flat.time.precision)
+    opening = min(int((1 - shutter) * flat.time.substeps), flat.time.substeps - 1) if shutter > 0 and "tail" in attributes.columns else -1
+    return EmitterPlan(node, operators, attributes, method, reason, birth, writer.main(opening) if moves else None,
+                       writer.own(opening >= 0) if moves else None, motion)
+
+
+def _nonzero(value: Value | None) -> bool:
+    return value is not None and not (isinstance(value, Literal) and not any(value.value))
+
+
+def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
+    """Return how the motion is computed, and why: the most exact form that the operators allow."""
+    asked = flat.time.method
+    if asked not in METHODS:
+        raise GraphError(Problem(f"method '{asked}' is not carried out by this version; choose one of {', '.join(METHODS)}", path="time.method"))
+    if asked == "sims":
+        return "sims", "asked for: the paper's scheme, first order, operations in stack order"
+    inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]
+    names = ", ".join(mover.node.node_type.name for mover in movers if mover.role != "surface")
+    if not inner:
+        return "exact", f"all motion is linear ({names or 'free flight'}): one exact step"
+    if asked == "exact":
+        raise GraphError(Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method"))
+    return "strang", f"flows that do not commute ({names}): composed symmetrically, second order"
+
+
+def mortal(plan: EmitterPlan) -> bool:
+    """Return whether particles die."""
+    life = plan.life
+    return life is None or not (isinstance(life, Literal) and life.value == INFINITY)

@@ -1,0 +1,103 @@
+"""Which nodes run, and in what order: from the outputs backwards, then a topological sort."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import networkx
+
+from graphfx.errors import GraphError, Problem
+from graphfx.graph.expressions import parse
+from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal
+from graphfx.plan.evaluate import constant_value
+
+OUTPUT_ROLES = ("image",)
+"""Roles of the nodes that write something; all others live only through them."""
+
+
+@dataclass
+class Schedule:
+    """`order` lists the nodes that run; `dropped` the others, with the reason; `through` the sources of each
+    kept node after the dropped ones between are passed over."""
+
+    order: list[str]
+    dropped: dict[str, str]
+    through: dict[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def upstream(self, path: str) -> list[str]:
+        """Return the kept nodes above a node, nearest last, in order."""
+        found: list[str] = []
+
+        def visit(name: str) -> None:
+            for source in self.through.get(name, ()):
+                if source not in found:
+                    visit(source)
+                    found.append(source)
+
+        visit(path)
+        return sorted(found, key=self.order.index)
+
+    def kept(self, path: str, flat: FlatGraph) -> list[str]:
+        """Return a node, or what stands for it where it was dropped."""
+        return _pass_over(path, flat, self.dropped)
+
+
+def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Schedule:
+    """Drop what does nothing or is not needed, and order the rest; ties keep the document's order."""
+    dropped = {path: reason for path, node in flat.nodes.items() if (reason := _idle(node, flat, precision, prune))}
+    through = {path: tuple(source for given in node.sources for source in _pass_over(given, flat, dropped))
+               for path, node in flat.nodes.items()}
+    edges = networkx.DiGraph()
+    edges.add_nodes_from(flat.nodes)
+    for path, node in flat.nodes.items():
+        edges.add_edges_from((source, path) for source in (*through[path], *node.references.values()))
+    outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
+    if not outputs:
+        raise GraphError(Problem("the graph has no output: give it an enabled node of type 'image'", path="nodes"))
+    needed = set(outputs).union(*(networkx.ancestors(edges, path) for path in outputs))
+    for path in flat.nodes:
+        if path not in needed and path not in dropped:
+            dropped[path] = "no output depends on it"
+    place = {path: k for k, path in enumerate(flat.nodes)}
+    order = networkx.lexicographical_topological_sort(edges.subgraph(needed - set(dropped)), key=place.__getitem__)
+    return Schedule(list(order), dropped, {path: through[path] for path in through if path not in dropped})
+
+
+def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]:
+    if path not in dropped:
+        return [path]
+    return [source for given in flat.nodes[path].sources for source in _pass_over(given, flat, dropped)]
+
+
+def _idle(node: FlatNode, flat: FlatGraph, precision: int, prune: bool) -> str:
+    if not node.enabled:
+        return "not enabled"
+    if not prune:
+        return ""
+    if node.during is not None:
+        start, end = node.during
+        begin, finish = -flat.time.preroll, (flat.time.last - flat.time.first) / flat.time.fps
+        if end <= begin or start > finish or end <= start:
+            return f"acts from {start:g} to {end:g} s, outside the simulated {begin:g} to {finish:g} s"
+    if node.node_type.neutral and _is_neutral(node, precision):
+        return f"it does nothing: {node.node_type.neutral}"
+    return ""
+
+
+def _is_neutral(node: FlatNode, precision: int) -> bool:
+    """Return whether the node type's `neutral` condition holds for constants given as parameters."""
+    constants: dict[str, Any] = {}
+    for name, value in node.arguments.items():
+        if isinstance(value, Literal):
+            constants[name] = value
+
+    def resolve(name: str) -> tuple[Any, str] | str:
+        if name in constants:
+            value = constants[name]
+            return value, "vec3" if isinstance(value.value, tuple) else "float"
+        return f"'{name}' is not constant"
+
+    tree, _, mistakes = parse(node.node_type.neutral, resolve)
+    return not mistakes and bool(constant_value(tree, precision))

@@ -1,0 +1,228 @@
+"""Write the programs of a frame: `main` for particles that live through all of it, `own` for those with a time of their own.
+
+`main` gives every particle the same steps. Where a particle meets a surface it is rejected, unchanged.
+`own` takes those, the newborn and the dying, gathered into dense blocks: each has its own begin and end
+inside the frame, and stops at every contact. Times are in seconds from the start of the frame, so their
+precision does not depend on how long the cook has run.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphfx.graph.flat import FlatNode
+from graphfx.graph.values import Value
+from graphfx.motion import basic, contact
+from graphfx.node import ATTRIBUTES
+from graphfx.plan.contacts import Contacts
+from graphfx.plan.liveness import Attributes
+from graphfx.plan.motion import Moment, Motion, State
+from graphfx.plan.values import Scope, StepValues, ValueWriter, lane_type
+from graphfx.program import Builder, Column, Operand, Program, Uniform
+
+MOST_CONTACTS = 100
+"""Contacts of one particle in one step; one that has more is reported and rests."""
+
+
+@dataclass
+class FrameProgram:
+    """A program with what each run must find: `steps` are the values of each substep, and `times` the uniforms
+    that hold times of the frame, by name: ("middle", k), ("length", k), ("half", k), ("end", k), "start", "opening"."""
+
+    program: Program
+    steps: list[StepValues]
+    times: dict[Any, Uniform] = field(default_factory=dict)
+
+
+class FrameWriter:
+    """Writes the programs of one emitter's particles."""
+
+    def __init__(self, emitter: FlatNode, attributes: Attributes, motion: Motion, seed: int, precision: int, substeps: int):
+        self.emitter = emitter
+        self.attributes = attributes
+        self.motion = motion
+        self.seed = seed
+        self.precision = precision
+        self.substeps = substeps
+        self.constants: dict[str, Operand] = {}
+        self.shared: dict[int, Operand] = {}
+
+    def main(self, opening_step: int) -> FrameProgram:
+        """Return the program for whole steps; the shutter opens in substep `opening_step` (-1: no motion blur)."""
+        builder = Builder.begin(f"{self.emitter.path}: motion")
+        made = FrameProgram(builder.program, [])
+        state = self._state(builder, made)
+        self.shared = {}
+        resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
+        tail = Column("tail", "vec3")
+        if opening_step >= 0 and resting is not None:
+            builder.call(basic.copy_vector, state.position, into=tail)
+        active = builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving")) if resting is not None else builder
+        contacts = Contacts(self.motion, self.precision)
+        event: Column | None = None
+        for k in range(self.substeps):
+            moment = self._uniform_moment(active, made, k, state)
+            if k == 0:
+                self.motion.prepare(moment, state)
+            before = active.call(basic.copy_vector, state.position, name="before") if k == opening_step else None
+            self.motion.step(moment, state)
+            event = contacts.main_step(moment, state, event)
+            if before is not None:
+                active.note = "motion blur"
+                opening = [self._time(active, made, name) for name in (("start", k), ("end", k), "opening")]
+                active.call(basic.capture, before, before, state.position, *opening, into=tail)
+        self._store(builder, state, tail if opening_step >= 0 else None)
+        builder.program.rejects = event if self.motion.method != "sims" else None
+        return made
+
+    def own(self, motion_blur: bool) -> FrameProgram:
+        """Return the program for particles with times of their own: `begin` and `end` come by place."""
+        builder = Builder.begin(f"{self.emitter.path}: motion in own time")
+        made = FrameProgram(builder.program, [])
+        state = self._state(builder, made)
+        self.shared = {}
+        now, end = builder.load("begin", "float"), builder.load("end", "float")
+        resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
+        tail = builder.call(basic.copy_vector, state.position, name="tail") if motion_blur else None
+        start = self._time(builder, made, "frame start")
+        first = self._lane_moment(builder, made, now, now, start)
+        self.motion.prepare(first, state)
+        unfinished: Column | None = None
+        for k in range(self.substeps):
+            finish = builder.call(basic.earlier, end, self._time(builder, made, ("end", k)), name="finish")
+            going = builder.call(basic.is_less, now, finish, name="going")
+            if resting is not None:
+                going = builder.call(basic.but_not, going, resting, into=going)
+            inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
+            self._own_step(inner, made, state, now, finish, start, resting, tail)
+            again = inner.call(basic.is_less, now, finish)
+            if resting is not None:
+                again = inner.call(basic.but_not, again, resting)
+            inner.call(basic.both, again, again, into=going)
+            left = builder.call(basic.both, going, going, name="unfinished")
+            unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
+        if resting is not None and unfinished is not None:
+            resting = builder.call(basic.either, resting, unfinished)
+            builder.store("resting", resting)
+        self._store(builder, state, tail)
+        if unfinished is not None:
+            made.program.stores["unfinished"] = unfinished
+        return made
+
+    def _own_step(self, inner: Builder, made: FrameProgram, state: State, now: Column, finish: Column, start: Operand,
+                  resting: Column | None, tail: Column | None) -> None:
+        """Write one turn of the loop: go to the end of the step, or to the first contact on the way."""
+        step = inner.call(basic.difference, finish, now, name="step")
+        before = inner.call(basic.copy_vector, state.position, name="before")
+        then = inner.call(basic.copy_number, now, name="then")
+        contacts = Contacts(self.motion, self.precision)
+
+        def moment_of(builder: Builder, dt: Column) -> Moment:
+            return self._lane_moment(builder, made, then, dt, start)
+
+        contacts.own_step(inner, moment_of, state, step, resting)
+        inner.call(basic.sum_of_numbers, then, step, into=now)
+        reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
+        inner.under(reached).call(basic.copy_number, finish, into=now)
+        if tail is not None:
+            inner.note = "motion blur"
+            opening = self._time(inner, made, "opening")
+            inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
+
+    def _scope(self, builder: Builder, state_read: Any) -> Scope:
+        columns = self.attributes.columns
+        return Scope(self.seed, self.emitter.path, state_read, lambda: builder.load("id", "id"),
+                     lambda name: name in columns or name in ("age", "normalized_age"))
+
+    def _state(self, builder: Builder, made: FrameProgram) -> State:
+        columns = self.attributes.columns
+
+        def attribute(name: str) -> Operand:
+            if name in columns:
+                return builder.load(name, lane_type(ATTRIBUTES[name].type))
+            return self._constant(name)
+
+        has_velocity = self.motion.has_velocity
+        return State(attribute("position"), attribute("velocity") if has_velocity else None, attribute)
+
+    def _constant(self, name: str) -> Operand:
+        if name not in self.constants:
+            value: Value = self.attributes.constants[name]
+            scope = Scope(self.seed, self.emitter.path, self._constant, None, lambda inner: False)  # type: ignore[arg-type]
+            self.constants[name] = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
+        return self.constants[name]
+
+    def _time(self, builder: Builder, made: FrameProgram, name: Any) -> Uniform:
+        if name not in made.times:
+            shown = name if isinstance(name, str) else f"{name[0]} {name[1]}"
+            made.times[name] = builder.uniform(shown, "float")
+        return made.times[name]
+
+    def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
+        steps = StepValues()
+        made.steps.append(steps)
+        scope = self._scope(builder, self._reader(builder, made, state, lambda: self._time(builder, made, ("middle", k))))
+        writer = self._share(ValueWriter(builder, scope, {}, steps, self.precision))
+        return Moment(builder, self._time(builder, made, ("length", k)), lambda: self._time(builder, made, ("half", k)), writer)
+
+    def _share(self, writer: ValueWriter) -> ValueWriter:
+        writer.shared = self.shared
+        return writer
+
+    def _lane_moment(self, builder: Builder, made: FrameProgram, then: Column, dt: Column, start: Operand) -> Moment:
+        halves: list[Column] = []
+
+        def half() -> Column:
+            if not halves:
+                halves.append(builder.call(basic.half, dt, name="half"))
+            return halves[0]
+
+        lane = _LazyClock(lambda: builder.call(basic.sum_of_numbers, then, half(), name="middle"),
+                          lambda middle: builder.call(basic.sum_of_numbers, start, middle, name="time"),
+                          lambda: self._time(builder, made, "frame"))
+        state = self._state(builder, made)
+        scope = self._scope(builder, self._reader(builder, made, state, lane.middle))
+        return Moment(builder, dt, half, self._share(ValueWriter(builder, scope, lane, None, self.precision)))
+
+    def _reader(self, builder: Builder, made: FrameProgram, state: State, middle: Any) -> Any:
+        def read(name: str) -> Operand:
+            if name == "age":
+                return builder.call(basic.sum_of_numbers, builder.load("age", "float"), middle(), name="age")
+            if name == "normalized_age":
+                from graphfx.plan.arithmetic import function_for
+
+                life = state.attribute("life")
+                return builder.call(function_for("divide", ("float", "float")), read("age"), life, name="normalized_age")
+            return state.read(name)
+
+        return read
+
+    def _store(self, builder: Builder, state: State, tail: Column | None) -> None:
+        for name, operand in (("position", state.position), ("velocity", state.velocity)):
+            if isinstance(operand, Column) and name in self.attributes.columns:
+                builder.store(name, operand)
+        if tail is not None and "tail" in self.attributes.columns:
+            builder.store("tail", tail)
+
+
+class _LazyClock(dict[str, Operand]):
+    """Times of a lane, written only when asked for."""
+
+    def __init__(self, middle: Any, time: Any, frame: Any):
+        super().__init__()
+        self._middle: Operand | None = None
+        self._make_middle, self._make_time, self._make_frame = middle, time, frame
+
+    def middle(self) -> Operand:
+        """Return the middle of the step, from the start of the frame [s]."""
+        if self._middle is None:
+            self._middle = self._make_middle()
+        return self._middle
+
+    def __missing__(self, name: str) -> Operand:
+        self[name] = self._make_time(self.middle()) if name == "time" else self._make_frame()
+        return self[name]
+
+
+__all__ = ["MOST_CONTACTS", "FrameProgram", "FrameWriter", "contact"]

@@ -1,0 +1,297 @@
+"""Lower values to instructions, each at the slowest rate that serves.
+
+A constant is found when the plan is made; a value that depends on time alone once per step, by the
+reference path; what differs by particle becomes instructions on block columns.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import IntEnum
+from typing import Any
+
+import numpy as np
+
+from graphfx.graph.values import Call, Expression, Keys, Literal, Name, Node, Ramp, Random, Value, children
+from graphfx.math.random import key_of
+from graphfx.node import NUMERIC_TYPES
+from graphfx.plan import arithmetic
+from graphfx.plan.arithmetic import function_for
+from graphfx.program import Builder, Column, Function, Operand, Uniform
+from graphfx.program.reference import execute
+
+
+class Rate(IntEnum):
+    """How often a value is found."""
+
+    CONSTANT = 0
+    STEP = 1
+    PARTICLE = 2
+
+
+LANE_TYPES = {"float": "float", "int": "float", "bool": "bool"} | {
+    name: "vec3" for name, size in NUMERIC_TYPES.items() if size == 3
+}
+"""The lane type in which a parameter type is computed."""
+
+CLOCK_NAMES = ("time", "frame")
+
+
+def lane_type(name: str) -> str:
+    """Return the lane type of a parameter or attribute type; other types have none."""
+    return LANE_TYPES.get(name, name)
+
+
+def literal(value: Value) -> Any:
+    """Return what a literal holds."""
+    assert isinstance(value, Literal)
+    return value.value
+
+
+@dataclass
+class Scope:
+    """What names mean where a value stands.
+
+    `attributes` finds the operand of an attribute, or None where it is not stored; `identity` is the
+    column of particle ids, `life` the number of the particle's life, `frame` the frame's number as a word.
+    """
+
+    seed: int
+    emitter: str
+    attribute: Callable[[str], Operand]
+    identity: Callable[[], Column]
+    per_particle: Callable[[str], bool]
+
+
+@dataclass
+class StepValues:
+    """Values found once per step: a program of one 'particle', and which uniforms take its results."""
+
+    builder: Builder = field(default_factory=lambda: Builder.begin("step values"))
+    exports: list[tuple[Uniform, Operand]] = field(default_factory=list)
+
+    def clock(self, name: str) -> Column:
+        """Return the column of `time`, `frame` or `dt`."""
+        return self.builder.load(name, "float")
+
+
+def rate_of(tree: Any, scope: Scope) -> Rate:
+    """Return how often a value, or a part of an expression, must be found."""
+    own = Rate.CONSTANT
+    if isinstance(tree, Name):
+        own = Rate.STEP if tree.name in CLOCK_NAMES else Rate.PARTICLE if scope.per_particle(tree.name) else Rate.CONSTANT
+    elif isinstance(tree, Keys):
+        own = Rate.STEP
+    elif isinstance(tree, Random):
+        own = Rate.CONSTANT if tree.per == "graph" else Rate.PARTICLE
+    elif isinstance(tree, Node) and tree.node_type is not None:
+        reserved = tree.node_type.reserved
+        if "draw" in reserved and tree.per != "graph":
+            own = Rate.PARTICLE
+        own = max(own, *(rate_of(Name(name), scope) for name in (*tree.node_type.reads, *reserved) if name not in ("draw", "dt")),
+                  Rate.CONSTANT)
+    return max(own, *(rate_of(part, scope) for part in children(tree)), Rate.CONSTANT)
+
+
+def depends_on_time(tree: Any) -> bool:
+    """Return whether a value changes while a particle lives: by time, frame, age, or an attribute that moves."""
+    changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per == "frame")
+    reads = isinstance(tree, Node) and tree.node_type is not None and bool(
+        tree.node_type.reads or {"time", "frame"}.intersection(tree.node_type.reserved))
+    return changing or reads or any(depends_on_time(part) for part in children(tree))
+
+
+class ValueWriter:
+    """Writes the instructions that find values at one rate; what is slower is found at its own.
+
+    `clock` gives `time` [s] and `frame` as operands of the builder where there are no step values;
+    `shared` holds what was found before for the whole program, by id of the value.
+    """
+
+    def __init__(self, builder: Builder, scope: Scope, clock: dict[str, Operand], steps: StepValues | None, precision: int,
+                 rate: Rate = Rate.PARTICLE):
+        self.builder = builder
+        self.scope = scope
+        self.clock = clock
+        self.steps = steps
+        self.precision = precision
+        self.rate = rate
+        self.shared: dict[int, Operand] = {}
+        self._found: dict[int, tuple[Any, Operand]] = {}
+
+    def operand(self, tree: Any) -> Operand:
+        """Return the operand that holds a value, a part of an expression, or a number."""
+        if id(tree) not in self._found:
+            self._found[id(tree)] = (tree, self._find(tree))
+        return self._found[id(tree)][1]
+
+    def argument(self, value: Value) -> Operand:
+        """Return the operand for a parameter: directions at unit length."""
+        if id(value) in self.shared:
+            return self.shared[id(value)]
+        return self.operand(Call("normalize", (value,)) if value.type == "direction" else value)
+
+    def _find(self, tree: Any) -> Operand:
+        if isinstance(tree, (bool, np.bool_)):
+            return Uniform(_shown(tree), "bool", bool(tree))
+        if isinstance(tree, (int, float, np.floating)):
+            return Uniform(_shown(tree), "float", float(tree))
+        if isinstance(tree, Literal):
+            return Uniform(_shown(tree.value), lane_type(tree.type), tree.value)
+        rate = rate_of(tree, self.scope)
+        if rate == Rate.CONSTANT and self.rate > rate:
+            return self._constant(tree)
+        if rate == Rate.STEP and self.steps is not None:
+            return self._step(tree, self.steps)
+        return _Lowering(self.builder, self).write(tree)
+
+    def _constant(self, tree: Any) -> Operand:
+        builder = Builder.begin("constant")
+        column = ValueWriter(builder, self.scope, {}, None, self.precision, Rate.CONSTANT).operand(tree)
+        if isinstance(column, Uniform):
+            return column
+        value = _run(builder, {}, self.precision)[id(column)]
+        plain = tuple(value) if column.type == "vec3" else value
+        return Uniform(_shown(plain), column.type, plain)
+
+    def _step(self, tree: Any, steps: StepValues) -> Operand:
+        clock: dict[str, Operand] = {name: steps.clock(name) for name in CLOCK_NAMES}
+        column = ValueWriter(steps.builder, self.scope, clock, None, self.precision, Rate.STEP).operand(tree)
+        uniform = self.builder.uniform(_name_of(tree), column.type)
+        steps.exports.append((uniform, column))
+        return uniform
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, tuple):
+        return "(" + ", ".join(f"{float(v):g}" for v in value) + ")"
+    return f"{float(value):g}" if not isinstance(value, (bool, np.bool_)) else str(bool(value)).lower()
+
+
+def _name_of(tree: Any) -> str:
+    path = getattr(tree, "path", "")
+    return path.rpartition(".")[2] if path else getattr(tree, "function", "value")
+
+
+def _run(builder: Builder, loaded: dict[str, Any], precision: int) -> dict[int, Any]:
+    values: dict[int, Any] = {id(builder.program.context): np.bool_(True)}
+    kind = np.float32 if precision == 32 else np.float64
+    for name, column in builder.program.loads.items():
+        values[id(column)] = kind(loaded[name])
+    with np.errstate(all="ignore"):
+        execute(builder.program.body, values, precision)
+    return values
+
+
+def find_step_values(steps: StepValues, time: float, frame: int, precision: int) -> dict[int, Any]:
+    """Return the values of a step's uniforms by id(uniform)."""
+    if not steps.exports:
+        return {}
+    values = _run(steps.builder, {"time": time, "frame": float(frame)}, precision)
+    return {id(uniform): values[id(column)] if isinstance(column, Column) else column.value for uniform, column in steps.exports}
+
+
+def folded_call(builder: Builder, precision: int, function: Function, *operands: Operand, name: str = "") -> Operand:
+    """Write a call of one result; if all operands are constants, find it now."""
+    if not all(isinstance(operand, Uniform) and operand.value is not None for operand in operands):
+        result: Operand = builder.call(function, *operands, name=name)
+        return result
+    constant = Builder.begin("constant")
+    column = constant.call(function, *operands)
+    value = _run(constant, {}, precision)[id(column)]
+    plain = tuple(value) if column.type == "vec3" else value
+    return Uniform(_shown(plain), column.type, plain)
+
+
+class _Lowering:
+    """Writes one value into a builder; parts are asked of the writer, which may find them at a slower rate."""
+
+    def __init__(self, builder: Builder, writer: ValueWriter):
+        self.builder = builder
+        self.writer = writer
+        self.scope = writer.scope
+
+    def write(self, tree: Any) -> Operand:
+        """Return the operand that holds the value."""
+        if isinstance(tree, Expression):
+            return self.writer.operand(tree.tree)
+        if isinstance(tree, Name):
+            return self.writer.clock[tree.name] if tree.name in CLOCK_NAMES else self.scope.attribute(tree.name)
+        if isinstance(tree, Call):
+            parts = [self.writer.operand(part) for part in tree.arguments]
+            return self.builder.call(function_for(tree.function, tuple(part.type for part in parts)), *parts)
+        if isinstance(tree, Random):
+            return self._random(tree)
+        if isinstance(tree, Keys):
+            return self._keys(self._repeated(tree), tree.times, tree.values, tree)
+        if isinstance(tree, Ramp):
+            return self._keys(self.writer.operand(tree.over), tree.positions, tree.values, tree)
+        if isinstance(tree, Node):
+            return self._node(tree)
+        raise TypeError(f"no instruction finds {type(tree).__name__}")
+
+    def _draw(self, value: Value, per: str) -> Column:
+        key = key_of(self.scope.seed, self.scope.emitter, value.seed)
+        nought = Uniform("0", "word", 0)
+        identity: Operand = Uniform("0", "id", 0) if per == "graph" else self.scope.identity()
+        cell = self.writer.clock["frame_word"] if per == "frame" else nought
+        return self.builder.draw(key, identity, nought, cell)
+
+    def _random(self, tree: Random) -> Operand:
+        low, high = self.writer.operand(tree.low), self.writer.operand(tree.high)
+        function = arithmetic.random_vector if low.type == "vec3" else arithmetic.random_number
+        return self.builder.call(function, low, high, self._draw(tree, tree.per), name=_name_of(tree))
+
+    def _repeated(self, tree: Keys) -> Operand:
+        time = self.writer.operand(Name("time"))
+        ends = self.writer.operand(tree.times[0]), self.writer.operand(tree.times[-1])
+        if tree.repeat == "hold" or tree.times[0] == tree.times[-1]:
+            return time
+        return self.builder.call(arithmetic.looped if tree.repeat == "loop" else arithmetic.mirrored, time, *ends)
+
+    def _keys(self, x: Operand, positions: tuple[float, ...], points: tuple[Any, ...], tree: Any) -> Operand:
+        type_ = lane_type(tree.type)
+        held = [point if isinstance(point, Value) else Literal(tree.type, value=point) for point in points]
+        values = [self.writer.operand(point) for point in held]
+        where = [self.writer.operand(float(position)) for position in positions]
+        shape = {"smooth": arithmetic.smooth_between, "step": arithmetic.held_between}.get(getattr(tree, "interpolation", ""))
+        if shape:
+            for first, last in zip(where, where[1:], strict=False):
+                x = self.builder.call(shape, x, first, last)
+        function = arithmetic.key_vector if type_ == "vec3" else arithmetic.key_number
+        result: Operand = values[0]
+        for k in range(max(len(values) - 1, 1)):
+            after = min(k + 1, len(values) - 1)
+            result = self.builder.call(function, result, x, where[k], where[after], values[k], values[after], name=_name_of(tree))
+        return result
+
+    def _node(self, tree: Node) -> Operand:
+        node_type = tree.node_type
+        assert node_type is not None
+        given = dict(tree.arguments)
+        operands: list[Operand] = []
+        for name in node_type.arguments:
+            if name in given:
+                operands.append(self.writer.argument(given[name]))
+            elif name == "draw":
+                operands.append(self._draw(tree, tree.per))
+            else:
+                operands.append(self.writer.operand(Name(name)))
+        return self.builder.call(node_function(node_type), *operands, name=_name_of(tree))
+
+
+_functions: dict[int, Function] = {}
+
+
+def node_function(node_type: Any) -> Function:
+    """Return the instruction that a node type's function is."""
+    if id(node_type) not in _functions:
+        arguments = tuple(lane_type(node_type.argument_type(name)) for name in node_type.arguments)
+        results = tuple(lane_type(name) for name in node_type.result)
+        _functions[id(node_type)] = Function(node_type.name, node_type.function, arguments, results, node_type.branches)
+    return _functions[id(node_type)]
+
+
+__all__ = ["LANE_TYPES", "Rate", "Scope", "StepValues", "ValueWriter", "depends_on_time", "find_step_values",
+           "folded_call", "lane_type", "literal", "node_function", "rate_of"]

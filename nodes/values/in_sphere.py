@@ -1,0 +1,22 @@
+"""Uniformly in a ball.
+
+    r = radius w^(1/3), in a direction uniform on the sphere
+
+[Sims 1990, 3.1]
+"""
+
+from graphfx.math import Vec3, maximum, power, sincos, sqrt
+from graphfx.node import param, value
+
+
+@value
+def in_sphere(
+    draw: tuple,
+    center: Vec3 = param((0, 0, 0), doc="Center of the ball."),
+    radius: float = param(1.0, min=0, doc="Radius of the ball."),
+) -> Vec3:
+    """Return a point of the ball."""
+    z = draw[0] * 2.0 - 1.0
+    ring = sqrt(maximum(1.0 - z * z, 0.0))
+    sine, cosine = sincos(draw[1] * 6.283185307179586)
+    return center + Vec3(ring * cosine, ring * sine, z) * (radius * power(draw[2], 0.3333333333333333))
