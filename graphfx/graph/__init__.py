@@ -1,0 +1,4 @@
+"""The JSON graph language: reading, checking, flattening, formatting, and its schema.
+
+    document  ->  check  ->  flatten
+"""

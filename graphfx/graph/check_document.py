@@ -13,7 +13,7 @@ from graphfx.graph.check_streams import check_references, walk
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
 from graphfx.graph.document import Document, load_document
-from graphfx.graph.items import Item, shown
+from graphfx.graph.items import Item
 from graphfx.graph.literals import Literals
 from graphfx.graph.model import Graph
 from graphfx.graph.named import NamedValues
@@ -41,7 +41,7 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     root = document.root
     graph = Graph(document.name, document.file, document.folder, root.location, digest=document.digest)
     if not root.is_object:
-        checking.complain(root.location, "", f'a graph should be an object such as {{"graphfx": 1, "nodes": {{}}}}; here stands {root.words}')
+        checking.mismatch(root, "", 'a graph should be an object such as {"graphfx": 1, "nodes": {}}')
         return graph
     part = root.value.get
     _top(checking, root)
@@ -75,22 +75,22 @@ def _top(checking: Checking, root: Item) -> None:
     version = root.value.get("graphfx")
     if version is None:
         checking.complain(root.location, "", f'the version of the language is missing; begin with "graphfx": {VERSION}')
+    elif version.is_number and version.value > VERSION:
+        checking.complain(version.location, "graphfx", f"this is version {version.value} of the language, and this graphfx reads "
+                          f"version {VERSION}; a newer graphfx is needed")
     elif version.value != VERSION or isinstance(version.value, bool):
-        newer = version.is_number and version.value > VERSION
-        checking.complain(version.location, "graphfx", f"this graphfx reads version {VERSION} of the language; here stands {version.words}"
-                          + ("; a newer graphfx is needed" if newer else f'; write "graphfx": {VERSION}'))
+        checking.mismatch(version, "graphfx", f'the version of the language should be {VERSION}, as in "graphfx": {VERSION}')
 
 
 def _use(checking: Checking, graph: Graph, item: Item | None, folders: list[Path], groups: Groups) -> None:
     """Read the groups that a graph names."""
     if item is not None and not item.is_object:
-        checking.complain(item.location, "use", f"\"use\" should be an object {{name: path}}; here stands {item.words}")
+        checking.mismatch(item, "use", "\"use\" should be an object {name: path}")
     for name, given in item.entries() if item is not None else ():
-        path, location = f"use.{name}", item.key_location(name)  # type: ignore[union-attr]
-        if not ID.fullmatch(name):
-            checking.complain(location, path, f"the name of a group is made of letters, digits, '_' and '-'; {shown(name)} is not")
-        elif name in checking.library:
-            checking.complain(location, path, f"'{name}' is a node type of the library; give the group another name")
+        path = f"use.{name}"
+        if checking.named(item, name, path, "the name of a group", ID) and name in checking.library:  # type: ignore[arg-type]
+            checking.complain(item.key_location(name), path,  # type: ignore[union-attr]
+                              f"'{name}' is a node type of the library; give the group another name")
         text = checking.text(given, path, "the path of a group")
         try:
             used = _group(checking, find_file(text, folders), text, given.location, path, groups) if text else None
@@ -133,17 +133,18 @@ def _nodes(checking: Checking, graph: Graph, item: Item | None, reader: NodeRead
                           else f"\"nodes\" should be an object of nodes by id; here stands {item.words}")
         return
     for name, given in item.entries():
-        location, path = item.key_location(name), f"nodes.{name}"
-        if not ID.fullmatch(name):
-            checking.complain(location, path, f"an id is made of letters, digits, '_' and '-', and begins with a letter; {shown(name)} is not")
+        path = f"nodes.{name}"
+        if not checking.named(item, name, path, "an id", ID):
             continue
         if name in graph.inputs:
-            checking.complain(location, path, f"'{name}' is an input of this group already; give the node another id")
+            checking.complain(item.key_location(name), path,
+                              f"'{name}' is an input of this group already; give the node another id")
             continue
         graph.nodes[name] = reader.entry(name, given, name, path)
     total = sum(1 for _ in walk(graph))
     if total > checking.limits.nodes:
-        checking.complain(item.location, "nodes", f"the graph has {total:,} nodes, more than the limit of {checking.limits.nodes:,}; "
+        checking.complain(item.location, "nodes",
+                          f"the graph has {total:,} nodes, more than the limit of {checking.limits.nodes:,}; "
                           "raise the limit on nodes if that is meant")
 
 

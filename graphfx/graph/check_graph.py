@@ -22,10 +22,11 @@ _TIME = {
     "substeps": Parameter("substeps", "int", None, min=1, max=1_000_000),
     "method": Parameter("method", "string", None, choices=METHODS),
     "tolerance": Parameter("tolerance", "float", None, unit="m", min=1e-15, max=1e6),
-    "precision": Parameter("precision", "int", None),
+    "precision": Parameter("precision", "int", None, choices=("32", "64")),
 }
 _SEED = Parameter("seed", "int", None, min=0, max=2**63 - 1)
 _FRAME = Parameter("frames", "int", None, min=-10_000_000, max=10_000_000)
+_OTHER_TYPES = {"vector": "vec3", "colour": "color", "number": "float", "boolean": "bool", "integer": "int", "text": "string"}
 _GROUP_KEYS = (*COMMON_KEYS, "inputs")
 
 
@@ -46,7 +47,7 @@ class GraphReader:
         if item is None:
             return
         if not item.is_object:
-            self.complain(item.location, "time", f"\"time\" should be an object; here stands {item.words}", f"its keys: {', '.join(TIME_KEYS)}")
+            self.checking.mismatch(item, "time", "\"time\" should be an object", f"its keys: {', '.join(TIME_KEYS)}")
             return
         self.checking.unknown_keys(item, "time", TIME_KEYS, "time")
         given: dict[str, Any] = {}
@@ -55,8 +56,6 @@ class GraphReader:
                 value = self.literals.read(item.value[key], want, f"time.{key}")
                 if value is not None:
                     given[key] = value
-        if given.get("precision", 32) not in (32, 64):
-            self.complain(item.value["precision"].location, "time.precision", f"precision should be 32 or 64 bits, not {given.pop('precision')}")
         if "frames" in item.value:
             first, last = self._frames(item.value["frames"])
             given.update(first=first, last=last)
@@ -66,27 +65,27 @@ class GraphReader:
     def _frames(self, item: Item) -> tuple[int, int]:
         default = TimeSettings()
         if not item.is_list or len(item.value) != 2:
-            self.complain(item.location, "time.frames", f"frames should be [first, last]; here stands {item.words}")
+            self.checking.mismatch(item, "time.frames", "frames should be [first, last]")
             return default.first, default.last
         ends = [self.literals.read(part, _FRAME, f"time.frames[{index}]") for index, part in enumerate(item.value)]
         if None in ends:
             return default.first, default.last
         if ends[0] > ends[1]:
-            self.complain(item.location, "time.frames", f"the last frame, {ends[1]}, comes before the first, {ends[0]}; write [first, last]")
+            self.complain(item.location, "time.frames",
+                          f"the last frame, {ends[1]}, comes before the first, {ends[0]}; write [first, last]")
         return ends[0], ends[1]
 
     def params(self, item: Item | None) -> None:
         """Read the parameters that the graph declares."""
         if item is not None and not item.is_object:
-            self.complain(item.location, "params", f"\"params\" should be an object of parameters; here stands {item.words}")
+            self.checking.mismatch(item, "params", "\"params\" should be an object of parameters")
         for name, given in item.entries() if item is not None else ():
             path = f"params.{name}"
-            if not WORD.fullmatch(name):
-                self.complain(item.key_location(name), path, "the name of a parameter is made of letters, digits and '_'; "  # type: ignore[union-attr]
-                              f"{shown(name)} is not")
+            if not self.checking.named(item, name, path, "the name of a parameter", WORD):  # type: ignore[arg-type]
+                pass
             elif not given.is_object:
-                self.complain(given.location, path, f"a parameter should be an object with a \"type\"; here stands {given.words}",
-                              f'for instance {{"type": "float", "default": 1, "min": 0, "doc": "..."}}')
+                self.checking.mismatch(given, path, "a parameter should be an object with a \"type\"",
+                              'for instance {"type": "float", "default": 1, "min": 0, "doc": "..."}')
             else:
                 parameter = self._param(name, given, path)
                 if parameter is not None:
@@ -97,19 +96,14 @@ class GraphReader:
 
     def _param(self, name: str, item: Item, path: str) -> Parameter | None:
         self.checking.unknown_keys(item, path, PARAM_KEYS, "a parameter")
-        given = item.value.get("type")
-        if given is None or not given.is_text or given.value not in PARAM_TYPES:
-            hint = suggestion(given.value, PARAM_TYPES, {"vector": "vec3", "colour": "color", "number": "float", "boolean": "bool",
-                              "integer": "int", "text": "string"}) if given and given.is_text else ""
-            stands = "" if given is None else f"; here stands {given.words}." + hint
-            self.complain(item.location if given is None else given.location, path if given is None else f"{path}.type",
-                          "a parameter needs a \"type\"" + stands, f"types: {', '.join(PARAM_TYPES)}")
+        kind = self._param_type(item, path)
+        if not kind:
             return None
-        kind = given.value
         if name in _GROUP_KEYS and (name, kind) != ("during", "interval"):
             self.complain(item.location, path, f"'{name}' is a key that any node may carry; choose another name")
             return None
-        unit, doc = (self.checking.text(item.value[key], f"{path}.{key}", key) if key in item.value else "" for key in ("unit", "doc"))
+        unit, doc = (self.checking.text(item.value[key], f"{path}.{key}", key) if key in item.value else ""
+                     for key in ("unit", "doc"))
         bound = {key: self._bound(item, key, kind, path) for key in ("min", "max")}
         low, high = bound["min"], bound["max"]
         if low is not None and high is not None and low > high:
@@ -126,6 +120,19 @@ class GraphReader:
         value = self.literals.read(default, parameter, f"{path}.default")
         return replace(parameter, default=value, required=value is None)
 
+    def _param_type(self, item: Item, path: str) -> str:
+        given = item.value.get("type")
+        types = f"types: {', '.join(PARAM_TYPES)}"
+        if given is None:
+            self.complain(item.location, path, 'a parameter needs a "type"', types)
+        elif given.is_text and given.value in PARAM_TYPES:
+            return str(given.value)
+        else:
+            near = suggestion(given.value, PARAM_TYPES, _OTHER_TYPES) if given.is_text else ""
+            stands = shown(given.value) if given.is_text else given.words
+            self.complain(given.location, f"{path}.type", f"no parameter has the type {stands}." + near, types)
+        return ""
+
     def _bound(self, item: Item, key: str, kind: str, path: str) -> float | None:
         given = item.value.get(key)
         if given is None:
@@ -139,14 +146,13 @@ class GraphReader:
     def inputs(self, item: Item | None) -> None:
         """Read the streams that a group takes."""
         if item is not None and not item.is_object:
-            self.complain(item.location, "inputs", f"\"inputs\" should be an object {{name: {{\"doc\": ...}}}}; here stands {item.words}")
+            self.checking.mismatch(item, "inputs", "\"inputs\" should be an object {name: {\"doc\": ...}}")
         for name, given in item.entries() if item is not None else ():
             path = f"inputs.{name}"
-            if not ID.fullmatch(name):
-                self.complain(item.key_location(name), path, f"the name of an input is made of letters, digits, '_' and '-'; "  # type: ignore[union-attr]
-                              f"{shown(name)} is not")
-            elif not given.is_object:
-                self.complain(given.location, path, f"an input should be an object such as {{\"doc\": \"...\"}}; here stands {given.words}")
+            if not self.checking.named(item, name, path, "the name of an input", ID):  # type: ignore[arg-type]
+                continue
+            if not given.is_object:
+                self.checking.mismatch(given, path, "an input should be an object such as {\"doc\": \"...\"}")
             else:
                 self.checking.unknown_keys(given, path, ("doc",), "an input")
                 doc = given.value.get("doc")
@@ -155,12 +161,10 @@ class GraphReader:
     def outputs(self, item: Item | None) -> None:
         """Read the streams that a group gives; what they name is looked up here."""
         if item is not None and not item.is_object:
-            self.complain(item.location, "outputs", f"\"outputs\" should be an object {{name: id}}; here stands {item.words}")
+            self.checking.mismatch(item, "outputs", "\"outputs\" should be an object {name: id}")
         for name, given in item.entries() if item is not None else ():
             path = f"outputs.{name}"
-            if not ID.fullmatch(name):
-                self.complain(item.key_location(name), path, f"the name of an output is made of letters, digits, '_' and '-'; "  # type: ignore[union-attr]
-                              f"{shown(name)} is not")
+            if not self.checking.named(item, name, path, "the name of an output", ID):  # type: ignore[arg-type]
                 continue
             text = self.checking.text(given, path, "an output, the id of a node,")
             node, _, port = text.partition(".")
@@ -171,7 +175,7 @@ class GraphReader:
     def expose(self, item: Item | None) -> None:
         """Pass parameters of inner nodes up: each becomes a parameter of the graph, by its own name."""
         if item is not None and not item.is_list:
-            self.complain(item.location, "expose", f"\"expose\" should be a list such as [\"left.tightness\"]; here stands {item.words}")
+            self.checking.mismatch(item, "expose", "\"expose\" should be a list such as [\"left.tightness\"]")
             return
         for index, given in enumerate(item.value) if item is not None else ():
             path = f"expose[{index}]"
@@ -189,7 +193,8 @@ class GraphReader:
             return
         parameters = _exposable(entry)
         if name not in parameters:
-            self.complain(item.location, path, f"{entry.type_name} has no parameter '{name}' to expose." + suggestion(name, parameters),
+            self.complain(item.location, path,
+                          f"{entry.type_name} has no parameter '{name}' to expose." + suggestion(name, parameters),
                           f"its parameters: {', '.join(parameters) or 'none'}")
             return
         if name in self.graph.params:
@@ -197,7 +202,8 @@ class GraphReader:
             return
         given = entry.arguments.get(name)
         if given is not None and not isinstance(given, Literal):
-            self.complain(given.location, given.path, f"'{text}' is exposed, so its value here is only a default and should be written out")
+            self.complain(given.location, given.path,
+                          f"'{text}' is exposed, so its value here is only a default and should be written out")
             return
         parameter = parameters[name]
         if given is not None:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from graphfx.errors import Location, suggestion
 from graphfx.graph.check_streams import references
 from graphfx.graph.check_values import ValueReader
-from graphfx.graph.checking import Checking, declared, takes
+from graphfx.graph.checking import Checking, counted, declared, takes
 from graphfx.graph.items import Item, shown
 from graphfx.graph.model import Entry, Graph
 from graphfx.graph.named import NamedValues
@@ -21,7 +21,7 @@ _NODE_KINDS = ("emitters", "selectors", "operators", "renders", "geometry")
 _ONLY = Parameter("only", "bool", None, doc="Particles that it acts on.")
 _ENABLED = Parameter("enabled", "bool", None)
 _DURING = Parameter("during", "interval", None, unit="s")
-_SETTLED = "it is decided before the cook: only literals and parameters may stand here"
+_SETTLED = "it is decided before the cook, from parameters alone"
 
 
 @dataclass
@@ -37,7 +37,7 @@ class NodeReader:
         """Return one node, or one operator of `stack`; where its type is wrong it has neither type nor group."""
         entry = Entry(name, place, path, item.location)
         if not item.is_object:
-            self.checking.complain(item.location, path, f"a node should be an object with a \"type\"; here stands {item.words}")
+            self.checking.mismatch(item, path, "a node should be an object with a \"type\"")
             return entry
         if not self._type(entry, item, bool(stack)):
             entry.node_type = entry.group = None
@@ -65,12 +65,13 @@ class NodeReader:
         qualifiers = {"birth"} if entry.kind in ("operators", "selectors", "group") else set()
         if "when" in item.value and item.value["when"].value == "hit":
             qualifiers.add("hit")
-        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.names, uniform, frozenset(qualifiers), self.graph.broken)
+        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.names, uniform, frozenset(qualifiers),
+                     self.graph.broken)
 
     def _type(self, entry: Entry, item: Item, inside: bool) -> bool:
         given = item.value.get("type")
         if given is None:
-            self.checking.complain(item.location, entry.path, 'this node has no "type"; write, for instance, "type": "stack"')
+            self.checking.complain(item.location, entry.path, 'this node has no "type"; say what it is, such as "type": "emit"')
             return False
         name = entry.type_name = self.checking.text(given, f"{entry.path}.type", "a type")
         entry.type_location = given.location
@@ -82,12 +83,12 @@ class NodeReader:
         elif name in library and library.kind_of(name) != "values":
             entry.node_type = self.checking.node_type(name)
         elif name in library:
-            self.checking.complain(given.location, f"{entry.path}.type", f"'{name}' is a value, not a node; give it to a parameter "
-                                   f'or an attribute: {{"{name}": {{...}}}}')
+            self.checking.complain(given.location, f"{entry.path}.type", f"'{name}' is a value, not a node; "
+                                   f'give it to a parameter or an attribute: {{"{name}": {{...}}}}')
         elif f"use.{name}" not in self.graph.broken:
-            known = [*self.checking.types_of(*_NODE_KINDS), *self.graph.use]
-            self.checking.complain(given.location, f"{entry.path}.type", f"there is no node type '{name}'." + suggestion(name, known),
-                                   f"a group is named under \"use\": {{\"{name}\": \"groups/{name}.json\"}}" if not suggestion(name, known) else "")
+            near = suggestion(name, [*self.checking.types_of(*_NODE_KINDS), *self.graph.use])
+            self.checking.complain(given.location, f"{entry.path}.type", f"there is no node type '{name}'." + near,
+                                   "" if near else f'a group is named under "use": {{"{name}": "groups/{name}.json"}}')
         if entry.node_type is None and entry.group is None:
             return False
         return self._stands(entry, given.location, inside)
@@ -100,13 +101,14 @@ class NodeReader:
         if entry.group is not None:
             if not entry.group.sound or len(entry.group.inputs) == len(entry.group.outputs) == 1:
                 return True
-            self.checking.complain(location, path, f"the group {name} has {len(entry.group.inputs)} inputs and "
-                                   f"{len(entry.group.outputs)} outputs; in a stack stand groups with one of each. Make it a node")
+            self.checking.complain(location, path, f"{name} has {counted(len(entry.group.inputs), 'input')} and "
+                                   f"{counted(len(entry.group.outputs), 'output')}, and a stack holds groups with one of each; "
+                                   "make it a node of its own")
             return False
         if entry.kind == "operators" and entry.role != "stack":
             return True
-        what = "a stack" if entry.role == "stack" else f"one of the {entry.kind}"
-        self.checking.complain(location, path, f"{name} is {what}; in a stack stand operators and groups. Make it a node")
+        what = "not another stack" if entry.role == "stack" else f"and {name} is one of the {entry.kind}"
+        self.checking.complain(location, path, f"a stack holds operators and groups, {what}; make it a node of its own")
         return False
 
     def _keys(self, entry: Entry, item: Item, inside: bool) -> None:
@@ -128,7 +130,8 @@ class NodeReader:
             elif key in COMMON_KEYS:
                 self.checking.complain(location, at, f"{name} does not take '{key}'", f"its keys: {', '.join(keys)}")
             else:
-                self.checking.complain(location, at, f"{name} has no parameter '{key}'." + suggestion(key, [*parameters, *keys], OTHER_NAMES),
+                near = suggestion(key, [*parameters, *keys], OTHER_NAMES)
+                self.checking.complain(location, at, f"{name} has no parameter '{key}'." + near,
                                        takes(name, parameters.values()), where)
 
     def _parameters(self, entry: Entry) -> dict[str, Parameter]:
@@ -136,7 +139,7 @@ class NodeReader:
 
     def _common(self, entry: Entry, item: Item) -> None:
         scope = self.scope(entry, item)
-        settled = replace(scope, uniform=_SETTLED, names=frozenset())
+        settled = replace(scope, uniform=_SETTLED, settled=True, names=frozenset())
         keys = keys_of(entry.role, entry.kind)
         if "doc" in item.value:
             self.checking.text(item.value["doc"], f"{entry.path}.doc", "doc")
@@ -157,12 +160,8 @@ class NodeReader:
         if entry.role not in WHEN_ROLES:
             self.checking.complain(item.location, path, f"{entry.type_name} acts through the whole step and has no moment; "
                                    "leave 'when' out, or say \"during\"")
-        elif item.is_text and item.value in WHEN:
-            entry.when = item.value
         else:
-            hint = suggestion(item.value, WHEN) if item.is_text else ""
-            stands = shown(item.value) if item.is_text else item.words
-            self.checking.complain(item.location, path, f"when should be one of {', '.join(WHEN)}, not {stands}." + hint)
+            entry.when = self.checking.choice(item, path, "when", WHEN)
 
     def _arguments(self, entry: Entry, item: Item, values: NamedValues) -> None:
         parameters = self._parameters(entry)
@@ -187,10 +186,11 @@ class NodeReader:
     def _ops(self, stack: Entry, item: Item) -> None:
         ops = item.value.get("ops")
         path = f"{stack.path}.ops"
+        if ops is None:
+            self.checking.complain(item.location, stack.path, 'a stack needs "ops", the list of its operators')
+        elif not ops.is_list:
+            self.checking.mismatch(ops, path, '"ops" should be a list of operators')
         if ops is None or not ops.is_list:
-            location = item.location if ops is None else ops.location
-            self.checking.complain(location, path if ops else stack.path,
-                                   "a stack needs \"ops\", the list of its operators" + (f"; here stands {ops.words}" if ops else ""))
             return
         seen: dict[str, Location] = {}
         for index, given in enumerate(ops.value):
@@ -216,8 +216,8 @@ class NodeReader:
         if given is not None:
             text = self.checking.text(given, f"{path}.id", "an id")
             if text and not ID.fullmatch(text):
-                self.checking.complain(given.location, f"{path}.id", f"an id is made of letters, digits, '_' and '-', and begins with "
-                                       f"a letter; {shown(text)} is not")
+                self.checking.complain(given.location, f"{path}.id", "an id is made of letters, digits, '_' and '-', and begins "
+                                       f"with a letter; {shown(text)} is not")
             return text or "?"
         kind = item.value.get("type")
         return kind.value if kind is not None and kind.is_text else "?"

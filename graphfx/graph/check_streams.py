@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.checking import Checking, declared
-from graphfx.graph.items import Item, shown
+from graphfx.graph.items import Item
 from graphfx.graph.model import Entry, Graph, StreamReference
 from graphfx.graph.names import LOOKS
 from graphfx.node import Parameter
@@ -24,7 +24,8 @@ def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> No
         return
     elif entry.role in _TAKES_FROM or entry.kind == "operators":
         if given is None:
-            checking.complain(item.location, entry.path, f'{entry.type_name} needs "from", the id of the node whose particles it takes')
+            checking.complain(item.location, entry.path,
+                              f'{entry.type_name} needs "from", the id of the node whose particles it takes')
         else:
             entry.sources = _streams(checking, given, path, entry.role == "image")
 
@@ -35,7 +36,8 @@ def _group_inputs(checking: Checking, entry: Entry, item: Item, inside: bool) ->
     given, named = item.value.get("from"), item.value.get("inputs")
     if inside:
         if named is not None:
-            checking.complain(named.location, f"{entry.path}.inputs", "a group in a stack takes the stack's stream; leave 'inputs' out")
+            checking.complain(named.location, f"{entry.path}.inputs",
+                              "a group in a stack takes the stack's stream; leave 'inputs' out")
         return
     if given is not None and len(group.inputs) != 1:
         names = ", ".join(group.inputs) or "none"
@@ -44,7 +46,7 @@ def _group_inputs(checking: Checking, entry: Entry, item: Item, inside: bool) ->
     elif given is not None:
         entry.inputs[next(iter(group.inputs))] = _streams(checking, given, f"{entry.path}.from", False)
     if named is not None and not named.is_object:
-        checking.complain(named.location, f"{entry.path}.inputs", f"\"inputs\" should be an object {{name: id}}; here stands {named.words}")
+        checking.mismatch(named, f"{entry.path}.inputs", "\"inputs\" should be an object {name: id}")
     for name, value in named.entries() if named is not None else ():
         if name not in group.inputs:
             checking.complain(named.key_location(name), f"{entry.path}.inputs.{name}",  # type: ignore[union-attr]
@@ -70,7 +72,7 @@ def _streams(checking: Checking, item: Item, path: str, looks: bool) -> list[Str
             found += _look(checking, given, at)
         else:
             shape = "the id of a node, or {\"stream\": id, ...}" if looks else "the id of a node, or a list of them"
-            checking.complain(given.location, at, f"'from' should be {shape}; here stands {given.words}")
+            checking.mismatch(given, at, f"'from' should be {shape}")
     if not single and not item.value:
         checking.complain(item.location, path, "the list is empty; name at least one node whose particles are taken")
     return found
@@ -83,12 +85,9 @@ def _look(checking: Checking, item: Item, path: str) -> list[StreamReference]:
         given = item.value.get(key)
         if given is None:
             continue
-        if given.is_text and given.value in choices:
-            looks[key] = given.value
-        else:
-            hint = suggestion(given.value, choices) if given.is_text else ""
-            stands = shown(given.value) if given.is_text else given.words
-            checking.complain(given.location, f"{path}.{key}", f"{key} should be one of {', '.join(choices)}, not {stands}." + hint)
+        found = checking.choice(given, f"{path}.{key}", key, choices)
+        if found:
+            looks[key] = found
     stream = item.value.get("stream")
     if stream is None:
         checking.complain(item.location, path, 'this entry needs "stream", the id of the node whose particles are drawn')
@@ -103,7 +102,8 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
     name, path = reference.node, reference.path
     if name in graph.inputs:
         if reference.port:
-            checking.complain(reference.location, path, f"'{name}' is an input of this group, one stream; leave '.{reference.port}' out")
+            checking.complain(reference.location, path,
+                              f"'{name}' is an input of this group, one stream; leave '.{reference.port}' out")
         return not reference.port
     node = graph.nodes.get(name)
     if node is None:
@@ -115,12 +115,14 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
         return False
     if not node.streams:
         makers = [known for known, entry in graph.nodes.items() if entry.streams]
-        checking.complain(reference.location, path, f"'{name}' is a node of type {node.type_name}, which makes no stream of particles",
+        checking.complain(reference.location, path,
+                          f"'{name}' is a node of type {node.type_name}, which makes no stream of particles",
                           f"nodes that make a stream: {', '.join(makers) or 'none'}")
         return False
     ports = [port for port in node.streams if port]
     if reference.port and reference.port not in ports:
-        checking.complain(reference.location, path, f"'{name}' has no output '{reference.port}'." + suggestion(reference.port, ports),
+        near = suggestion(reference.port, ports)
+        checking.complain(reference.location, path, f"'{name}' has no output '{reference.port}'." + near,
                           f"its outputs: {', '.join(ports)}" if ports else f"it makes one stream; write '{name}'")
         return False
     if not reference.port and len(ports) > 1:
@@ -163,7 +165,8 @@ def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Param
         checking.complain(location, path, f"there is no node '{target}'." + suggestion(target, known), note,
                           declared(entry.node_type) if entry.node_type and not known else "")
     elif node.role and not fits(node):
-        checking.complain(location, path, f"{parameter.name} should be the id of a {wanted}; '{target}' is a node of type {node.type_name}", note)
+        checking.complain(location, path,
+                          f"{parameter.name} should be the id of a {wanted}; '{target}' is a node of type {node.type_name}", note)
 
 
 def walk(graph: Graph) -> Iterator[Entry]:
@@ -201,6 +204,6 @@ def _check_circles(checking: Checking, graph: Graph) -> None:
             elif name in trail:
                 circle = " -> ".join([*trail[trail.index(name):], name][::-1])
                 checking.complain(reference.location, reference.path, f"these nodes take from one another in a circle: {circle}; "
-                                  "particles must come from an emitter. Break it at one of them")
+                                  "particles must come from an emitter; break it at one of them")
             elif name in graph.nodes and name not in done:
                 enter(name)

@@ -8,7 +8,7 @@ from typing import Any
 from graphfx.errors import suggestion
 from graphfx.graph.checking import Checking, declared, number, takes
 from graphfx.graph.expressions import parse
-from graphfx.graph.items import Item, shown
+from graphfx.graph.items import Item
 from graphfx.graph.literals import Literals, lane, wanted
 from graphfx.graph.names import INTERPOLATIONS, REPEATS, SCOPES, VALUE_KEYS
 from graphfx.graph.scope import Scope, particle_reader
@@ -51,10 +51,12 @@ class ValueReader:
         if scope.uniform:
             reader = particle_reader(value)
             if reader:
-                self.complain(reader.location or item.location, path, f"it reads {reader.what}. {scope.uniform}")
+                place = (reader.value or value).location
+                self.complain(place, path, f"{scope.uniform}; this reads {reader.what}")
         size = measure(value)
         if size.size > self.checking.limits.value_size or size.depth > self.checking.limits.expression_depth:
-            self.complain(item.location, path, f"the value has {size.size:,} parts, {size.depth} deep, with all that it refers to; "
+            self.complain(item.location, path,
+                          f"the value has {size.size:,} parts, {size.depth} deep, with all that it refers to; "
                           f"the limits are {self.checking.limits.value_size:,} and {self.checking.limits.expression_depth}")
             return None
         return value
@@ -100,13 +102,12 @@ class ValueReader:
         name = found[0]
         modifiers = VALUE_KEYS.get(name, ("per",))
         self.checking.unknown_keys(item, path, (name, *modifiers), name)
-        if want.type not in ("", "string", "path", "interval", "list") or name == "param":
-            reader = getattr(self, f"_{name}", None) if name in VALUE_KEYS else self._node
-            return reader(item, name, want, scope, key)  # type: ignore[misc, no-any-return]
-        if want.type == "":
-            return getattr(self, f"_{name}")(item, name, want, scope, key) if name in VALUE_KEYS else self._node(item, name, want, scope, key)
+        drawn = scope.settled and name not in ("param", "expr")
+        if name == "param" or not (drawn or want.type in ("string", "path", "interval", "list")):
+            readers = {"param": self._param, "expr": self._expr, "keys": self._keys, "ramp": self._ramp, "rand": self._rand}
+            return readers.get(name, self._node)(item, name, want, scope, key)
         self.complain(item.location, path, f"{want.name} should be {wanted(want)}, written out or given by {{\"param\": ...}}; "
-                      f"it cannot be given by {name}")
+                      f"{name} cannot give it")
         return None
 
     def _fits(self, item: Item, path: str, kind: str, want: Parameter, what: str) -> bool:
@@ -116,7 +117,8 @@ class ValueReader:
         if want.type == "int" and lane(kind) == "float":
             return True
         words = {"float": "a number", "vec3": "a vector", "bool": "a condition, true or false"}
-        self.complain(item.location, path, f"{want.name} should be {wanted(want)}; {what} is {words.get(lane(kind), 'of type ' + kind)}")
+        self.complain(item.location, path,
+                      f"{want.name} should be {wanted(want)}; {what} is {words.get(lane(kind), 'of type ' + kind)}")
         return False
 
     def _param(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
@@ -128,7 +130,8 @@ class ValueReader:
         if parameter is None and f"params.{text}" in scope.broken:
             return None
         if parameter is None:
-            self.complain(inner.location, f"{path}.param", f"the graph has no parameter '{text}'." + suggestion(text, scope.params),
+            near = suggestion(text, scope.params)
+            self.complain(inner.location, f"{path}.param", f"the graph has no parameter '{text}'." + near,
                           f"its parameters: {', '.join(scope.params) or 'none'}")
             return None
         if not self._fits(inner, path, parameter.type, want, f"the parameter '{text}'"):
@@ -138,7 +141,7 @@ class ValueReader:
     def _expr(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
         path, inner = _join(scope.path, key), item.value[name]
         if not inner.is_text:
-            self.complain(inner.location, f"{path}.expr", f"an expression should be text in quotes; here stands {inner.words}")
+            self.checking.mismatch(inner, f"{path}.expr", "an expression should be text in quotes")
             return None
         text = inner.value
         tree, kind, mistakes = parse(text, scope.resolve, self.checking.limits)
@@ -158,7 +161,7 @@ class ValueReader:
         rows = inner.value if inner.is_list else []
         if not rows or not all(row.is_list and len(row.value) == 2 for row in rows):
             bad = next((row for row in rows if not (row.is_list and len(row.value) == 2)), inner)
-            self.complain(bad.location, f"{path}.{name}", f"{name} should be a list of pairs [[{first}, value], ...]; here stands {bad.words}")
+            self.checking.mismatch(bad, f"{path}.{name}", f"{name} should be a list of pairs [[{first}, value], ...]")
             return None
         numbers: list[float] = []
         values: list[Any] = []
@@ -192,7 +195,8 @@ class ValueReader:
         if over is not None and not over.is_text:
             reads = self.read(over, _OVER, scope, f"{key}.over")
         else:
-            text = Item("normalized_age" if over is None else over.value, item.offset if over is None else over.offset, item.source)
+            source = item if over is None else over
+            text = Item("normalized_age" if over is None else over.value, source.offset, item.source)
             wrapped = Item({"expr": text}, text.offset, item.source, {"expr": text.offset})
             reads = self._expr(wrapped, "expr", _OVER, scope, f"{key}.over")
         if pairs is None or reads is None:
@@ -209,7 +213,7 @@ class ValueReader:
             self.complain(item.location, path, f"{want.name} should be {wanted(want)}; rand gives numbers and vectors")
             return None
         if not inner.is_list or len(inner.value) != 2:
-            self.complain(inner.location, f"{path}.rand", f"rand takes two values [a, b] and draws between them; here stands {inner.words}")
+            self.checking.mismatch(inner, f"{path}.rand", "rand takes two values [a, b] and draws between them")
             return None
         low = self.read(inner.value[0], want, scope, f"{key}.rand[0]")
         second = want if want.type or low is None else replace(want, type=low.type, name="the second value")
@@ -231,7 +235,7 @@ class ValueReader:
         kind = node_type.result[0] if node_type.result else ""
         fits = self._fits(item, path, kind, want, name)
         if not inner.is_object:
-            self.complain(inner.location, f"{path}.{name}", f"{name} takes an object of its parameters; here stands {inner.words}", *notes)
+            self.checking.mismatch(inner, f"{path}.{name}", f"{name} takes an object of its parameters", *notes)
             return None
         for given, _ in inner.entries():
             if given not in parameters:
@@ -254,14 +258,7 @@ class ValueReader:
     def _choice(self, item: Item, path: str, key: str, choices: tuple[str, ...], spelled: str = "") -> str:
         """Return one of a modifier's choices, the first by default, or '' after a complaint."""
         given = item.value.get(key)
-        if given is None:
-            return choices[0]
-        if given.is_text and given.value in choices:
-            return str(given.value)
-        hint = suggestion(given.value, choices) if given.is_text else ""
-        stands = shown(given.value) if given.is_text else given.words
-        self.complain(given.location, f"{path}.{key}", f"{spelled or key} should be one of {', '.join(choices)}, not {stands}." + hint)
-        return ""
+        return choices[0] if given is None else self.checking.choice(given, f"{path}.{key}", spelled or key, choices)
 
 
 def default_value(parameter: Parameter, path: str) -> Literal:

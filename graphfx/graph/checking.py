@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from graphfx.errors import Location, NodeError, Problem, suggestion
-from graphfx.graph.items import Item
+from graphfx.graph.items import Item, shown
 from graphfx.graph.limits import Limits
+from graphfx.graph.names import WORD
 from graphfx.node import OTHER_NAMES, Library, NodeType, Parameter
 
 
@@ -25,6 +27,10 @@ class Checking:
         """Add a problem."""
         self.problems.append(Problem(message, location, path, tuple(note for note in notes if note)))
 
+    def mismatch(self, item: Item, path: str, wanted: str, *notes: str) -> None:
+        """Complain that something else stands where a message says what should."""
+        self.complain(item.location, path, f"{wanted}; here stands {item.words}", *notes)
+
     def unknown_keys(self, item: Item, path: str, known: Iterable[str], what: str, *notes: str) -> None:
         """Complain of each key of an object that is not known; `what` says whose keys they are."""
         known = list(known)
@@ -34,11 +40,26 @@ class Checking:
                 self.complain(item.key_location(key), f"{path}.{key}" if path else key,
                               f"{what} has no key '{key}'." + suggestion(key, known, OTHER_NAMES), *takes)
 
+    def choice(self, item: Item, path: str, name: str, choices: Sequence[str]) -> str:
+        """Return one of some words, or complain and return ''."""
+        if item.is_text and item.value in choices:
+            return str(item.value)
+        self.complain(item.location, path, not_one_of(item, name, choices))
+        return ""
+
+    def named(self, item: Item, key: str, path: str, what: str, pattern: re.Pattern[str]) -> bool:
+        """Complain unless a key of an object is fit for a name."""
+        if pattern.fullmatch(key):
+            return True
+        letters = "letters, digits and '_'" if pattern is WORD else "letters, digits, '_' and '-'"
+        self.complain(item.key_location(key), path, f"{what} is made of {letters} and begins with a letter; {shown(key)} is not")
+        return False
+
     def text(self, item: Item, path: str, what: str) -> str:
         """Return a text, or complain and return ''."""
         if item.is_text:
             return str(item.value)
-        self.complain(item.location, path, f"{what} should be text in quotes; here stands {item.words}")
+        self.mismatch(item, path, f"{what} should be text in quotes")
         return ""
 
     def types_of(self, *kinds: str) -> list[str]:
@@ -55,6 +76,18 @@ class Checking:
             self._broken.add(name)
             self.problems.extend(error.problems)
             return None
+
+
+def not_one_of(item: Item, name: str, choices: Sequence[str]) -> str:
+    """Return that an item is none of some words, with the nearest."""
+    near = suggestion(item.value, choices) if item.is_text else ""
+    stands = shown(item.value) if item.is_text else item.words
+    return f"{name} should be one of {', '.join(choices)}, not {stands}" + (f".{near}" if near else "")
+
+
+def counted(count: int, word: str) -> str:
+    """Return "1 input" or "2 inputs"."""
+    return f"{count} {word}{'s' * (count != 1)}"
 
 
 def declared(node_type: NodeType) -> str:
@@ -84,4 +117,4 @@ def number(value: float) -> str:
 def in_order(problems: list[Problem], file: str) -> list[Problem]:
     """Return problems without repeats, those of the document itself first, by place."""
     unique = list(dict.fromkeys(problems))
-    return sorted(unique, key=lambda problem: (problem.location.file != file, problem.location.file, problem.location.line, problem.location.column))
+    return sorted(unique, key=lambda problem: (problem.location.file != file, problem.location))

@@ -28,10 +28,13 @@ from graphfx.graph.values import Call, measure
 _TOKEN = re.compile(r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
                     r"|(?P<sign>\*\*|<=|>=|==|!=|&&|\|\||//|[-+*/%<>().,=!^?:\[\]]))")
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
-_WORDS = ("and", "or", "not", "if", "else")
-_FOREIGN = {"&&": "write 'and'", "||": "write 'or'", "!": "write 'not'", "^": "a power is written a ** b", "=": "equality is written ==",
-            "?": "a choice is written 'a if condition else b'", ":": "a choice is written 'a if condition else b'",
-            "//": "write floor(a / b)", "[": "a vector is written vec(x, y, z)"}
+KEYWORDS = ("and", "or", "not", "if", "else")
+_FOREIGN = {
+    "&&": "write 'and'", "||": "write 'or'", "!": "write 'not'", "^": "a power is written a ** b", "=": "equality is written ==",
+    "?": "a choice is written 'a if condition else b'", ":": "a choice is written 'a if condition else b'",
+    "//": "write floor(a / b)", "[": "a vector is written vec(x, y, z)",
+}
+"""Signs of other languages, and what to write instead."""
 _MOST_BRACKETS = 30
 """Each bracket is a dozen calls of the parser, and Python allows about a thousand."""
 QUALIFIERS = ("param", "birth", "parent", "hit")
@@ -87,8 +90,8 @@ class _Parser:
         result = self.expression()
         kind, word, column = self.peek()
         if kind:
-            meant = _FOREIGN.get(word)
-            self.stop(f"'{word}' cannot stand here" + (f"; {meant}" if meant else "; an operator or the end of the expression should"), column)
+            meant = _FOREIGN.get(word, "an operator or the end of the expression should")
+            self.stop(f"'{word}' cannot stand here; {meant}", column)
         return result
 
     def scan(self) -> None:
@@ -217,7 +220,7 @@ class _Parser:
         if kind == "number":
             self.next += 1
             return self.number(word, column), "float"
-        if kind == "name" and word not in _WORDS:
+        if kind == "name" and word not in KEYWORDS:
             self.next += 1
             return self.called(word, column) if self.take("(") else self.named(word, column)
         if self.take("("):
@@ -248,7 +251,8 @@ class _Parser:
                 if len(parts) > 1 and not (len(parts) == 2 and self.after_dot() in ("start", "end")):
                     break
             word = ".".join(parts)
-        found = (CONSTANTS[word], "bool" if CONSTANTS[word] in (True, False) else "float") if word in CONSTANTS else self.resolve(word)
+        value = CONSTANTS.get(word)
+        found = self.resolve(word) if value is None else (value, "bool" if isinstance(value, bool) else "float")
         if isinstance(found, str):
             self.note(found, column)
             return None, ""
@@ -279,7 +283,8 @@ class _Parser:
             return result
         if len(arguments) != function.argument_count:
             spelling = "pow(a, b)" if word == "pow" else function.spelling
-            self.note(f"{word} is called as {spelling}, but has {len(arguments)} argument{'s' * (len(arguments) != 1)} here", column)
+            count = f"{len(arguments)} argument{'s' * (len(arguments) != 1)}"
+            self.note(f"{word} is called as {spelling}, but has {count} here", column)
             return None, ""
         return self.call(name, tuple(arguments), column, word)
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from graphfx.errors import GraphError, LimitError, Location, Problem
+from graphfx.errors import GraphError, LimitError, Problem
 from graphfx.graph.check_document import read_graph, starting_from
 from graphfx.graph.check_nodes import why_uniform
 from graphfx.graph.check_values import default_value
@@ -74,12 +74,13 @@ class Flattener:
                     if op.group is not None:
                         self.flatten(self._group(instance, op, inner, {next(iter(op.group.inputs)): sources}))
                     else:
-                        self._add(instance, op, inner, sources, ())
+                        self._add(instance, op, inner, sources)
             elif not (instance.prefix and entry.role == "image"):
                 sources, looks = self._sources(instance, entry)
                 self._add(instance, entry, gate, sources, looks)
 
-    def _add(self, instance: Instance, entry: Entry, gate: Gate, sources: tuple[str, ...], looks: tuple[dict[str, object], ...]) -> None:
+    def _add(self, instance: Instance, entry: Entry, gate: Gate, sources: tuple[str, ...],
+             looks: tuple[dict[str, object], ...] = ()) -> None:
         if len(self.nodes) >= self.checking.limits.nodes:
             raise LimitError(Problem(f"the flattened graph has more than {self.checking.limits.nodes:,} nodes, the limit; "
                                      "raise the limit on nodes if that is meant", entry.location, entry.path))
@@ -108,7 +109,9 @@ class Flattener:
         why = why_uniform(entry, parameter)
         reader = particle_reader(value) if why else None
         if reader:
-            self.checking.complain(given.location, given.path, f"through its parameter it reads {reader.what}. {why}")
+            cause = reader.value or given
+            target = f"{entry.place}.{parameter.name} of {entry.location.file}"
+            self.checking.complain(cause.location, cause.path, f"{why}; this, given on to {target}, reads {reader.what}")
 
     def _gate(self, instance: Instance, entry: Entry) -> Gate:
         substitution = instance.substitution
@@ -129,10 +132,12 @@ class Flattener:
             return None
         known = substitution.value(value, want)
         if not isinstance(known, Literal):
-            self.checking.complain(value.location, value.path, f"{want.name} must be known before the cook, and this is not constant")
+            self.checking.complain(value.location, value.path,
+                                   f"{want.name} must be known before the cook, and this is not constant")
             return None
         if want.type == "interval" and known.value[0] > known.value[1]:
-            self.checking.complain(value.location, value.path, f"the interval ends at {known.value[1]}, before its start at {known.value[0]}")
+            self.checking.complain(value.location, value.path,
+                                   f"the interval ends at {known.value[1]}, before its start at {known.value[0]}")
         return known.value
 
     def _group(self, outer: Instance, entry: Entry, gate: Gate, inputs: dict[str, tuple[str, ...]]) -> Instance:
@@ -200,7 +205,8 @@ def _attribute(name: str) -> Parameter:
 def _whole(graph: Graph, checking: Checking, overrides: Mapping[str, Any] | None = None) -> dict[str, FlatNode]:
     """Return the flat nodes of a graph that stands alone; problems go to `checking`."""
     for name, doc in graph.inputs.items():
-        checking.complain(graph.location, f"inputs.{name}", f"this graph is a group, and its input '{name}' has no particles here; "
+        checking.complain(graph.location, f"inputs.{name}",
+                          f"this graph is a group, and its input '{name}' has no particles here; "
                           "use it in another graph, by \"use\" and from there as a type" + (f" ({doc})" if doc else ""))
     given = override(graph, checking, overrides or {})
     if checking.problems:

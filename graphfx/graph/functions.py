@@ -47,7 +47,7 @@ FUNCTIONS = {
     for function in (
         Function("add", _LINEAR, "a + b", "Sum."),
         Function("subtract", _LINEAR, "a - b", "Difference."),
-        Function("multiply", (((_F, _F), _F), ((_V, _F), _V), ((_F, _V), _V)), "a * b", "Product; a vector by a number scales it."),
+        Function("multiply", (*_TWO, ((_V, _F), _V), ((_F, _V), _V)), "a * b", "Product; a vector by a number scales it."),
         Function("divide", (((_F, _F), _F), ((_V, _F), _V)), "a / b", "Quotient; division by zero gives infinity."),
         Function("modulo", _TWO, "a % b", "a - floor(a / b) * b: the remainder, with the sign of b."),
         Function("power", _TWO, "a ** b", "a to the power b; pow(a, b) is the same."),
@@ -61,7 +61,7 @@ FUNCTIONS = {
         Function("and", _LOGIC, "a and b", "Whether both hold."),
         Function("or", _LOGIC, "a or b", "Whether one of the two holds."),
         Function("not", (((_B,), _B),), "not a", "Whether a does not hold."),
-        Function("select", (((_B, _F, _F), _F), ((_B, _V, _V), _V), ((_B, _B, _B), _B)), "a if c else b", "a where c holds, else b."),
+        Function("select", tuple(((_B, kind, kind), kind) for kind in (_F, _V, _B)), "a if c else b", "a where c holds, else b."),
         Function("vec", (((_F, _F, _F), _V),), "vec(x, y, z)", "A vector of three numbers."),
         Function("component_x", (((_V,), _F),), "v.x", "First component of a vector."),
         Function("component_y", (((_V,), _F),), "v.y", "Second component of a vector."),

@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from graphfx.errors import suggestion
-from graphfx.graph.checking import Checking, number
+from graphfx.graph.checking import Checking, not_one_of, number
 from graphfx.graph.items import Item, shown
 from graphfx.graph.paths import PathRefused, find_file
 from graphfx.node.types import Parameter
@@ -31,6 +30,8 @@ def wanted(want: Parameter) -> str:
     """Return what a parameter should be given, with its unit."""
     if want.choices:
         return f"one of {', '.join(want.choices)}"
+    if want.type == "list" and want.default:
+        return f"a list such as {list(want.default)}"
     return _WANTED.get(want.type, want.type) + (f" [{want.unit}]" if want.unit else "")
 
 
@@ -64,7 +65,7 @@ def out_of_range(value: Any, want: Parameter) -> str:
         low, high = want.min, want.max
         if (low is None or part >= low) and (high is None or part <= high):
             continue
-        unit = f" {want.unit}" if want.unit else ""
+        unit = f" [{want.unit}]" if want.unit else ""
         if low is not None and high is not None:
             limits = f"must lie between {number(low)} and {number(high)}{unit}"
         else:
@@ -89,6 +90,8 @@ class Literals:
             value, message, notes = None, str(refusal), refusal.notes
         if value is not None:
             message = out_of_range(value, want)
+            if want.choices and not item.is_text and str(value) not in want.choices:
+                message = not_one_of(item, want.name, want.choices)
             if not message and want.type == "direction" and not any(value):
                 message = f"{want.name} is a direction, and [0, 0, 0] points nowhere"
         if message:
@@ -138,7 +141,8 @@ class Literals:
     def _vector(self, item: Item, want: Parameter) -> tuple[Any, str]:
         if item.is_text and want.type in ("color", ""):
             found = color(item.value)
-            return found, "" if found else f"{shown(item.value)} is no colour; write \"#rrggbb\", as in \"#ff8000\", or linear [1, 0.5, 0]"
+            wrong = f"{shown(item.value)} is no colour; write \"#rrggbb\", as in \"#ff8000\", or linear [1, 0.5, 0]"
+            return found, "" if found else wrong
         if not item.is_list or len(item.value) != 3 or not all(part.is_number for part in item.value):
             if want.type == "color" and item.is_list and len(item.value) == 4:
                 return None, "a colour has three channels; opacity is an attribute of its own"
@@ -155,7 +159,7 @@ def _list(item: Item, want: Parameter) -> tuple[Any, str]:
         if not (part.is_number or part.is_text):
             return None, f"{want.name} holds numbers or texts, but entry {index} is {part.words}"
         whole = index < len(like) and type(like[index]) is int
-        if like and isinstance(like[index], str) != part.is_text or whole and type(part.value) is not int:
+        if (like and isinstance(like[index], str) != part.is_text) or (whole and type(part.value) is not int):
             kind = "text in quotes" if isinstance(like[index], str) else "a whole number" if whole else "a number"
             return None, f"entry {index} of {want.name} should be {kind}, not {part.words}"
     return tuple(part.value for part in item.value), ""
@@ -165,7 +169,7 @@ def _unlike(want: Parameter, item: Item) -> str:
     """Return that an item is not what is wanted, and what to write instead."""
     name = want.name or "this"
     if want.choices and item.is_text:
-        return f"{name} should be one of {', '.join(want.choices)}, not {shown(item.value)}." + suggestion(item.value, want.choices)
+        return not_one_of(item, name, want.choices)
     message = f"{name} should be {wanted(want)}; here stands {item.words}"
     if item.is_list and len(item.value) == 2 and lane(want.type) in ("float", "vec3"):
         return message + '; a value drawn between two is {"rand": [a, b]}'

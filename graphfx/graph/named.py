@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
+from graphfx.graph.expressions import KEYWORDS, QUALIFIERS
 from graphfx.graph.functions import CALLED, CONSTANTS
 from graphfx.graph.items import Item
 from graphfx.graph.names import WORD
@@ -11,13 +12,14 @@ from graphfx.graph.scope import ALWAYS, READABLE, Scope
 from graphfx.graph.values import Value
 from graphfx.node.types import Parameter
 
-_TAKEN = frozenset({*ALWAYS, *READABLE, *CALLED, *CONSTANTS, "id", "param", "birth", "parent", "hit", "and", "or", "not", "if", "else"})
+_TAKEN = frozenset({*ALWAYS, *READABLE, *CALLED, *CONSTANTS, *QUALIFIERS, *KEYWORDS, "id"})
 
 
 class NamedValues:
     """The named values of one owner; `outer` are those of the graph around an emitter."""
 
-    def __init__(self, checking: Checking, reader: ValueReader, item: Item | None, scope: Scope, outer: NamedValues | None = None):
+    def __init__(self, checking: Checking, reader: ValueReader, item: Item | None, scope: Scope,
+                 outer: NamedValues | None = None):
         """Note the names; `scope` is the owner's, and its values may refer to one another."""
         self.checking, self.reader, self.outer = checking, reader, outer
         self.items: dict[str, Item] = {}
@@ -25,7 +27,7 @@ class NamedValues:
         self.asking: list[str] = []
         path = f"{scope.path}.values" if scope.path else "values"
         if item is not None and not item.is_object:
-            checking.complain(item.location, path, f"\"values\" should be an object of named values; here stands {item.words}")
+            checking.mismatch(item, path, "\"values\" should be an object of named values")
         for name, given in item.entries() if item is not None else ():
             if not WORD.fullmatch(name) or name in _TAKEN:
                 why = "already means something in expressions" if name in _TAKEN else "is not made of letters, digits and '_'"
@@ -49,7 +51,8 @@ class NamedValues:
             cycle = " -> ".join([*self.asking[self.asking.index(name):], name])
             item = self.items[name]
             path = f"{self.scope.path}.values.{name}" if self.scope.path else f"values.{name}"
-            self.checking.complain(item.location, path, f"these values refer to one another in a circle: {cycle}; break it at one of them")
+            self.checking.complain(item.location, path,
+                                   f"these values refer to one another in a circle: {cycle}; break it at one of them")
             return None
         if name not in self.known:
             self.asking.append(name)

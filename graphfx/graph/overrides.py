@@ -31,7 +31,8 @@ def override(graph: Graph, checking: Checking, overrides: Mapping[str, Any]) -> 
             if value is not None:
                 given[name] = value
         elif parameter.required:
-            checking.complain(graph.param_locations.get(name, graph.location), path, f"this parameter has no default; give it one, "
+            checking.complain(graph.param_locations.get(name, graph.location), path,
+                              f"this parameter has no default; give it one, "
                               f"or a value for this cook: --set {name}=...")
         else:
             given[name] = default_value(parameter, path)
@@ -48,15 +49,14 @@ def _read(graph: Graph, checking: Checking, name: str, value: Any) -> Value | No
     text = value if isinstance(value, str) else json.dumps(value, default=str)
     item = Item(text, 0, Source(place.file, text))
     if parameter.type not in ("string", "path") or not isinstance(value, str):
-        kind = lane(parameter.type)
-        bracketed = f"[{text}]" if kind in ("vec3", "interval", "list") and not text.lstrip().startswith(("[", "#", '"')) else text
+        listed = lane(parameter.type) in ("vec3", "interval", "list") and not text.lstrip().startswith(("[", "#", '"'))
         try:
-            found, problems = read(bracketed, place.file)
+            found, problems = read(f"[{text}]" if listed else text, place.file)
         except GraphError:
             found, problems = item, []
         item = item if problems else found
     inner = Checking(checking.library, checking.limits)
-    folders = [graph.folder] if graph.folder else []
-    result = Literals(inner, [*folders, *(root / "graphs" for root in checking.library.roots)]).read(item, parameter, f"params.{name}")
+    folders = [*([graph.folder] if graph.folder else []), *(root / "graphs" for root in checking.library.roots)]
+    result = Literals(inner, folders).read(item, parameter, f"params.{name}")
     checking.problems.extend(replace(problem, location=place) for problem in inner.problems)
     return None if result is None else Literal(parameter.type, place, f"params.{name}", "", result)

@@ -75,11 +75,13 @@ def find_file(text: str, folders: Iterable[Path]) -> Path:
             if not file.exists():
                 continue
             if not real.is_relative_to(folder.resolve()):
-                raise PathRefused(f"{shown(text)} leads out of the folder {folder} by a symbolic link; copy the file there")
+                raise PathRefused(f"{shown(text)} leads out of its folder by a symbolic link; copy the file there")
             if not stat.S_ISREG(real.stat().st_mode):
                 raise PathRefused(f"{shown(text)} is no file, but a folder or a device")
         except (OSError, RuntimeError, ValueError) as error:
             raise PathRefused(f"{shown(text)} cannot be read: {error}") from error
         return file
-    near = [str(file.relative_to(folder)) for folder in folders for file in sorted(folder.joinpath(text).parent.glob("*.*"))[:200]]
-    raise PathRefused(f"there is no file {shown(text)}." + suggestion(text, near), *(f"sought in {folder}" for folder in folders))
+    near = [str(file.relative_to(folder)) for folder in folders
+            for file in sorted(folder.joinpath(text).parent.glob("*.*"))[:200]]
+    sought = [f"sought in {folder.resolve()}" for folder in folders]
+    raise PathRefused(f"there is no file {shown(text)}." + suggestion(text, near), *sought)

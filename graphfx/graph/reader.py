@@ -130,7 +130,8 @@ class _Reader(Tokens):
     def enter(self) -> int:
         self.depth += 1
         if self.depth > self.limits.depth:
-            self.fail(f"objects and lists nest deeper than the limit of {self.limits.depth}; use groups, or raise the limit on depth")
+            self.fail(f"objects and lists nest deeper than the limit of {self.limits.depth}; "
+                      "use groups, or raise the limit on depth")
         start = self.at
         self.at += 1
         return start
@@ -147,6 +148,9 @@ class _Reader(Tokens):
         kind = "object" if close == "}" else "list"
         if not char:
             self.fail(f"the {kind} that begins here is not closed; write '{close}' at its end", start)
+        if char == '"' or (kind == "list" and char in "{[-0123456789"):
+            self.note("a comma is missing before this entry", self.at)
+            return True
         if char != ",":
             self.fail(f"between two entries of this {kind} stands a comma, and at its end '{close}'; here stands {self.found()}")
         comma = self.at
@@ -198,6 +202,8 @@ class _Reader(Tokens):
             word = _WORD.match(self.text, at)
             if word:
                 self.fail(f'keys stand in double quotes: "{word.group()[:40]}"')
+            if char in _WRONG_QUOTES:
+                self.fail(f'keys stand in double quotes: write " and not {char}')
             self.fail(f"a key in double quotes should stand here, not {self.found()}")
         key = self.string().value
         if self.space() != ":":

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
-from graphfx.errors import Location, suggestion
+from graphfx.errors import suggestion
 from graphfx.graph.functions import CONSTANTS
 from graphfx.graph.literals import lane
 from graphfx.graph.values import Expression, Name, Node, ParameterValue, Random, Value, children
@@ -34,12 +34,16 @@ class Scope:
     uniform: str = ""
     qualifiers: frozenset[str] = frozenset()
     broken: frozenset[str] | set[str] = frozenset()
+    settled: bool = False
+    """Whether the value must be known before the cook: time passes, and draws are made, only later."""
 
     def resolve(self, word: str) -> tuple[Any, str] | str:
         """Return what a name of an expression means, with its type, or the message that says why it means nothing."""
         qualifier, dot, rest = word.partition(".")
         if dot:
             return self._parameter(rest) if qualifier == "param" else self._qualified(qualifier, rest)
+        if word in ALWAYS and self.settled:
+            return f"'{word}' cannot be read here: {self.uniform}"
         if word in ALWAYS:
             return Name(word), ALWAYS[word]
         if word in self.names:
@@ -88,10 +92,10 @@ class Scope:
 
 @dataclass
 class Reader:
-    """Something that a value reads from the particle."""
+    """Something that a value reads from the particle, and the value that reads it."""
 
     what: str
-    location: Location | None = field(default=None)
+    value: Value | None = None
 
 
 def particle_reader(tree: Any, seen: set[int] | None = None) -> Reader | None:
@@ -103,16 +107,17 @@ def particle_reader(tree: Any, seen: set[int] | None = None) -> Reader | None:
     if isinstance(tree, Name) and tree.name not in ALWAYS:
         return Reader(f"'{tree.name}'")
     if isinstance(tree, Random) and tree.per not in ("frame", "graph"):
-        return Reader(f'a random number per {tree.per}; say "per": "graph" or "frame"', tree.location)
+        return Reader(f'a random number per {tree.per}; say "per": "graph" or "frame"', tree)
     if isinstance(tree, Node) and tree.node_type is not None:
         if tree.node_type.reads:
-            return Reader(f"the attribute '{tree.node_type.reads[0]}', by {tree.node_type.name}", tree.location)
+            return Reader(f"the attribute '{tree.node_type.reads[0]}', by {tree.node_type.name}", tree)
         if "id" in tree.node_type.reserved or ("draw" in tree.node_type.reserved and tree.per not in ("frame", "graph")):
-            return Reader(f'a random number per {tree.per}, by {tree.node_type.name}; say "per": "graph" or "frame"', tree.location)
+            return Reader(f'a random number per {tree.per}, by {tree.node_type.name}; say "per": "graph" or "frame"',
+                          tree)
     for part in children(tree):
         found = particle_reader(part, seen)
         if found:
-            if found.location is None and isinstance(tree, Expression):
-                found.location = tree.location
+            if found.value is None and isinstance(tree, Expression):
+                found.value = tree
             return found
     return None

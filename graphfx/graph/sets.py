@@ -43,7 +43,7 @@ class AttributeReader:
         path = f"{entry.path}.set"
         if item is None or not item.is_object:
             if item is not None:
-                self.checking.complain(item.location, path, f"\"set\" should be an object of attributes; here stands {item.words}")
+                self.checking.mismatch(item, path, "\"set\" should be an object of attributes")
             elif entry.role == "set":
                 self.checking.complain(entry.location, entry.path, 'set needs "set": {attribute: value, ...}')
             return
@@ -52,11 +52,13 @@ class AttributeReader:
         for name, given in item.entries():
             location, at = item.key_location(name), f"{path}.{name}"
             if name in parameters:
-                self.checking.complain(location, at, f"'{name}' is a parameter of {entry.type_name}; write it beside \"set\", not inside")
+                self.checking.complain(location, at,
+                                       f"'{name}' is a parameter of {entry.type_name}; write it beside \"set\", not inside")
             elif name in DERIVED_ATTRIBUTES:
                 self.checking.complain(location, at, f"'{name}' follows from birth and life and cannot be set")
             elif name not in ATTRIBUTES:
-                self.checking.complain(location, at, f"there is no attribute '{name}'." + suggestion(name, ATTRIBUTES, OTHER_NAMES),
+                self.checking.complain(location, at,
+                                       f"there is no attribute '{name}'." + suggestion(name, ATTRIBUTES, OTHER_NAMES),
                                        f"attributes: {', '.join(ATTRIBUTES)}")
             else:
                 attribute = ATTRIBUTES[name]

@@ -48,7 +48,8 @@ class Substitution:
         size = measure(result)
         limits = self.checking.limits
         if size.size > limits.value_size or size.depth > limits.expression_depth:
-            self.checking.complain(value.location, value.path, f"with its parameters the value has {size.size:,} parts, {size.depth} deep; "
+            self.checking.complain(value.location, value.path,
+                                   f"with its parameters the value has {size.size:,} parts, {size.depth} deep; "
                                    f"the limits are {limits.value_size:,} and {limits.expression_depth}")
             return Literal(value.type, value.location, value.path, "", (0.0, 0.0, 0.0) if lane(value.type) == "vec3" else 0.0)
         return result
@@ -122,7 +123,8 @@ class Substitution:
         if isinstance(tree, Call):
             done = self._done.get(id(tree))
             if done is None:
-                done = self._done[id(tree)] = (tree, fold(Call(tree.function, tuple(self._tree(part) for part in tree.arguments))))
+                arguments = tuple(self._tree(part) for part in tree.arguments)
+                done = self._done[id(tree)] = (tree, fold(Call(tree.function, arguments)))
             return done[1]
         return tree
 

@@ -23,25 +23,31 @@ class Tokens:
     """A place in a text, and the readers of numbers and texts that stand there."""
 
     def __init__(self, source: Source, limits: Limits, problems: list[Problem]):
+        """Stand at the beginning of a text; mistakes that can be read past go to `problems`."""
         self.source, self.text, self.limits, self.problems = source, source.text, limits, problems
         self.at = 0
         self.depth = 0
 
     def fail(self, message: str, offset: int | None = None) -> NoReturn:
+        """Stop reading here, or at an offset."""
         problem = Problem(message, self.source.location(self.at if offset is None else offset))
         raise GraphError([*self.problems, problem])
 
     def note(self, message: str, offset: int) -> None:
+        """Tell a mistake and read on."""
         self.problems.append(Problem(message, self.source.location(offset)))
 
     def item(self, value: Any, offset: int, **more: Any) -> Item:
+        """Return a value that begins at an offset."""
         return Item(value, offset, self.source, **more)
 
     def not_finite(self, text: str, start: int) -> None:
+        """Tell that JSON has no such number."""
         meant = "give a finite number" if text.lower() == "nan" else 'leave the parameter out, or write "infinity" in quotes'
         self.note(f"JSON has no {text}; {meant}", start)
 
     def number(self) -> Item:
+        """Read a number."""
         start = self.at
         like = _NUMBER_LIKE.match(self.text, start).group()  # type: ignore[union-attr]
         number = _NUMBER.fullmatch(like)
@@ -61,6 +67,7 @@ class Tokens:
         return self.item(value, start)
 
     def string(self) -> Item:
+        """Read a text."""
         start = self.at
         whole = _PLAIN_TEXT.match(self.text, start)
         if whole:
@@ -88,13 +95,15 @@ class Tokens:
                 self.at += 1
 
     def escape(self) -> str:
+        """Read what a backslash begins."""
         start = self.at
         kind = self.text[start + 1 : start + 2]
         if kind in _ESCAPES and kind:
             self.at += 2
             return _ESCAPES[kind]
         if kind != "u":
-            self.note(f"\\{kind if kind.isprintable() else ''} means nothing in JSON; write \\\\ for a backslash, / in paths", start)
+            name = kind if kind.isprintable() else ""
+            self.note(f"\\{name} means nothing in JSON; write \\\\ for a backslash, / in paths", start)
             self.at += 1
             return ""
         code = self.code_unit(start)
@@ -110,6 +119,7 @@ class Tokens:
         return chr(code)
 
     def code_unit(self, start: int) -> int:
+        """Read the four digits after a backslash and u at `start`."""
         digits = _HEX4.match(self.text, start + 2)
         if digits is None:
             self.note("\\u needs four hexadecimal digits, as in \\u00e9", start)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from graphfx.graph.document import load_document
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, bundled_root
@@ -12,5 +14,5 @@ def test_snow_is_a_chain_from_the_sky_to_the_ground(library: Library) -> None:
     flat = flatten(load_document(bundled_root() / "graphs/effects/snow.json"), Library([*library.roots, bundled_root()]))
     chain = ["sky", "fall/spiral", "fall/gust/left", "fall/gust/right", "fall/bounce_plane"]
     assert [(node.path, node.sources) for node in flat.nodes.values()] == [
-        ("sky", ()), *((path, (source,)) for source, path in zip(chain, chain[1:], strict=False)),
+        ("sky", ()), *((path, (source,)) for source, path in pairwise(chain)),
         ("view", ()), ("frames", ("fall/bounce_plane",))]
