@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -26,8 +26,8 @@ class Rows:
     """Which rows run: all `count` in order, or those of `listed`; `excluded` has a bit for each row that does not."""
 
     count: int
-    listed: np.ndarray = NO_ROWS
-    excluded: np.ndarray = NO_BITS
+    listed: np.ndarray = field(default_factory=lambda: NO_ROWS)
+    excluded: np.ndarray = field(default_factory=lambda: NO_BITS)
 
 
 def _table(columns: Mapping[str, Column], arrays: Mapping[str, Any], by_place: frozenset[str], made: Assembled) -> np.ndarray:

@@ -1,0 +1,134 @@
+"""An effect in Python: load a graph, cook it, or take its particles and pictures.
+
+    effect = graphfx.load("snow.json")
+    effect.cook("out")
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
+from graphfx.cook.pictures import draw
+from graphfx.cook.simulate import Simulation
+from graphfx.errors import UsageError
+from graphfx.graph import flatten
+from graphfx.graph.flat import FlatGraph
+from graphfx.node import Library, library_roots
+from graphfx.output.png import picture_bytes
+from graphfx.output.atomic import write_bytes
+from graphfx.plan.make import ImagePlan, Plan, make_plan
+from graphfx.render.film import Film
+from graphfx.store.threads import available_threads
+
+
+@dataclass(frozen=True)
+class FrameReport:
+    """What is told of a cooked frame: particles alive, fragments drawn, particles that could not be drawn, files."""
+
+    frame: int
+    particles: int
+    fragments: int
+    dropped: int
+    files: tuple[Path, ...]
+
+
+class Effect:
+    """A flattened graph and its plan."""
+
+    def __init__(self, flat: FlatGraph):
+        self.flat = flat
+
+    @cached_property
+    def plan(self) -> Plan:
+        """What will run."""
+        return make_plan(self.flat)
+
+    @property
+    def frames(self) -> list[int]:
+        """All frames of the graph."""
+        return list(range(self.flat.time.first, self.flat.time.last + 1))
+
+    def cook(self, out: str | Path = ".", frames: Iterable[int] | None = None, threads: int | None = None,
+             report: Callable[[FrameReport], None] | None = None) -> list[Path]:
+        """Simulate and write the images of the frames (all, unless told); return the files written.
+
+        `report` is called after each frame.
+        """
+        written: list[Path] = []
+        for made in self._cooked(Path(out), sorted(set(frames)) if frames is not None else self.frames, threads or available_threads()):
+            written += made.files
+            if report is not None:
+                report(made)
+        return written
+
+    def _cooked(self, out: Path, frames: list[int], threads: int) -> Iterator[FrameReport]:
+        simulation = self.simulation(threads)
+        wanted = set(self._checked(frames))
+        for frame in simulation.frames(frames[-1]) if frames else ():
+            if frame not in wanted:
+                continue
+            films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
+            files = tuple(self._write(image, film, frame, out) for image, film in films)
+            yield FrameReport(frame, sum(particles.alive for particles in simulation.particles.values()),
+                              sum(film.fragments for _, film in films), sum(film.dropped for _, film in films), files)
+
+    def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
+        file = out / file_name(str(image.value("file")), self.flat.name, frame)
+        background = None if image.value("transparent") else tuple(image.value("background"))
+        write_bytes(file, picture_bytes(film.pixels, background, float(image.value("exposure")), int(image.value("bits"))))
+        return file
+
+    def _checked(self, frames: list[int]) -> list[int]:
+        time = self.flat.time
+        wrong = [frame for frame in frames if not time.first <= frame <= time.last]
+        if wrong:
+            raise UsageError(f"frame {wrong[0]} is not in the graph's frames {time.first} to {time.last}")
+        return frames
+
+    def simulation(self, threads: int | None = None, reference: bool = False) -> Simulation:
+        """Return a new simulation: on the block machine, or in plain Python, which defines what is right."""
+        executor: Executor = ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
+        return Simulation(self.plan, executor, threads or 1)
+
+    def simulate(self, frame: int, threads: int | None = None, reference: bool = False) -> dict[str, dict[str, np.ndarray]]:
+        """Return the columns of all particles alive at a frame, by emitter: numbers (n,), vectors (n, 3)."""
+        self._checked([frame])
+        simulation = self.simulation(threads, reference)
+        for _ in simulation.frames(frame):
+            pass
+        return {path: {name: _columns(particles.store.column(name), particles.living()) for name in particles.store.columns}
+                for path, particles in simulation.particles.items()}
+
+    def frame(self, frame: int, threads: int | None = None, image: int = 0) -> Film:
+        """Return the picture of one frame, linear and premultiplied."""
+        self._checked([frame])
+        simulation = self.simulation(threads or available_threads())
+        for _ in simulation.frames(frame):
+            pass
+        return draw(self.plan.images[image], simulation, frame, threads or available_threads())
+
+
+def _columns(arrays: tuple[np.ndarray, ...], rows: np.ndarray) -> np.ndarray:
+    return np.stack([array[rows] for array in arrays], axis=1) if len(arrays) > 1 else arrays[0][rows]
+
+
+def file_name(pattern: str, graph: str, frame: int) -> str:
+    """Return a file's name: each run of # is the frame's number, padded with zeros to its length."""
+    name = pattern.replace("{graph}", graph)
+    run = "#" * name.count("#")
+    return name.replace(run, f"{frame:0{len(run)}d}") if run and run in name else name
+
+
+def load(path: str | Path, library: Iterable[str | Path] = (), set: Mapping[str, Any] | None = None) -> Effect:
+    """Load and check a graph file. `library` are further library roots; `set` gives values to its parameters.
+
+    Raises GraphError with all problems, each located.
+    """
+    return Effect(flatten(path, Library(library_roots(library)), set))

@@ -1,0 +1,27 @@
+"""Frame sets, as people type them: `12`, `1-48`, `1-48x2`, `1-10,20,30-40`."""
+
+from __future__ import annotations
+
+import re
+
+from graphfx.errors import UsageError
+
+_PART = re.compile(r"\s*(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?\s*")
+
+
+def parse_frames(text: str, first: int, last: int) -> list[int]:
+    """Return the frames of a set in ascending order, each once; all must lie in the graph's range."""
+    found: set[int] = set()
+    for part in text.split(","):
+        match = _PART.fullmatch(part)
+        if match is None:
+            raise UsageError(f"--frames: '{part.strip()}' is no frame set; write 12, 1-48, 1-48x2 or several with commas")
+        begin, end = int(match[1]), int(match[2] or match[1])
+        step = int(match[3] or 1)
+        if end < begin or step < 1:
+            raise UsageError(f"--frames: '{part.strip()}' is empty; write the lesser frame first and a step of 1 or more")
+        if begin < first or end > last:
+            raise UsageError(f"--frames: '{part.strip()}' goes beyond the graph's frames {first} to {last}; "
+                             "change time.frames in the graph to have more")
+        found.update(range(begin, end + 1, step))
+    return sorted(found)

@@ -1,0 +1,69 @@
+"""From particles to pictures: what the renderer is handed for a frame."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.simulate import Particles, Simulation
+from graphfx.graph.flat import FlatNode
+from graphfx.plan.make import ImagePlan, mortal, plain_value
+from graphfx.render.camera import Camera
+from graphfx.render.film import Film
+from graphfx.render.renderer import render
+from graphfx.render.streaks import Streaks
+
+
+def camera_at(node: FlatNode, time: float, frame: int) -> Camera:
+    """Return a camera as it stands at a time."""
+    given = {name: plain_value(value, time, frame) for name, value in node.arguments.items()}
+    given["width_of_view"] = given.pop("view_width")
+    return Camera(**given)
+
+
+def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> Film:
+    """Return the picture of a frame."""
+    time = simulation.clock.time_of(frame)
+    exposure = float(image.value("shutter", time, frame)) / simulation.clock.fps
+    opening = max(time - exposure, simulation.clock.start)
+    streams = [streaks_of(simulation.particles[path], look, time, opening) for path, look in image.streams]
+    width, height = (int(number) for number in image.value("size"))
+    return render(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
+
+
+def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening: float) -> Streaks:
+    """Return the streaks of one emitter's particles over the shutter from `opening` to `time`."""
+    store = particles.store
+    share = _shares(particles, time, opening)
+    shown = None if share is None else np.flatnonzero(share > 0)
+
+    def column(name: str) -> Any:
+        value = particles.value(name)
+        if name not in store.columns:
+            return value
+        arrays = value if shown is None else tuple(array[shown] for array in value)
+        return np.stack([np.asarray(array, np.float32) for array in arrays]) if len(arrays) == 3 else arrays[0]
+
+    head = column("position")
+    if not isinstance(head, np.ndarray):
+        head = np.repeat(np.array(head, np.float32)[:, None], store.count if shown is None else len(shown), axis=1)
+    tail = column("tail") if "tail" in store.columns and opening < time else None
+    return Streaks(head=head, tail=tail, head_radius=column("radius"), head_color=column("color"), head_opacity=column("opacity"),
+                   share=1.0 if share is None or shown is None else share[shown].astype(np.float32), **look)
+
+
+def _shares(particles: Particles, time: float, opening: float) -> np.ndarray | None:
+    """Return the part of the shutter for which each particle lived, or None if that is 1 for all."""
+    store = particles.store
+    length = time - opening
+    newborn = particles.born[particles.born_at > opening] if length > 0 else particles.born[:0]
+    if not len(newborn) and not len(particles.dying):
+        return None
+    share = np.ones(store.count)
+    if length > 0:
+        share[newborn] = (time - particles.born_at[particles.born_at > opening]) / length
+    if len(particles.dying) and mortal(particles.plan):
+        after_death = (time - particles.death()[particles.dying]) / length if length > 0 else np.ones(len(particles.dying))
+        share[particles.dying] = np.maximum(share[particles.dying] - after_death, 0.0)
+    return share
