@@ -1,5 +1,11 @@
-"""Scalar mathematics whose one text serves plain Python and the block machine."""
+"""Scalar mathematics whose one text serves plain Python and the block machine.
 
+Random numbers are in `graphfx.math.random`.
+"""
+
+from .exponential import exp, exp2, expm1
+from .logarithmic import log, log2, power
+from .phi import cosinc, phi1, phi2, sin3, sinc
 from .primitives import (
     absolute,
     by_precision,
@@ -13,7 +19,11 @@ from .primitives import (
     sqrt,
     where,
 )
+from .trigonometric import acos, atan2, cos, sin, sincos
 from .vec3 import Vec3, cross, dot, length, rotate, unit
 
-__all__ = ["Vec3", "absolute", "by_precision", "copysign", "cross", "dot", "floor", "fma", "length", "maximum",
-           "minimum", "rotate", "scale2", "split2", "sqrt", "unit", "where"]
+__all__ = [
+    "Vec3", "absolute", "acos", "atan2", "by_precision", "copysign", "cos", "cosinc", "cross", "dot", "exp", "exp2",
+    "expm1", "floor", "fma", "length", "log", "log2", "maximum", "minimum", "phi1", "phi2", "power", "rotate", "scale2",
+    "sin", "sin3", "sinc", "sincos", "split2", "sqrt", "unit", "where",
+]

@@ -91,9 +91,10 @@ def encoded(part: int | str) -> bytes:
 def spawned_id(parent: Any, life: Any, event: int, number: int) -> Any:
     """The id, of 64 bits, of copy `number` among the particles spawned by an event of a parent.
 
-    (A particle that its emitter bore has its ordinal of birth for id.) A hash: Philox with the counter (parent low, parent high, life, a tag) and the key (event, number).
-    The highest bit is set, so it is no ordinal; among a million spawned particles the chance that two
-    share an id is 5e-8. life, event and number count modulo 2**32. Arrays of uint64 parents give arrays.
+    A particle that its emitter bore has its ordinal of birth for id. This is a hash: Philox with the
+    counter (parent low, parent high, life, a tag) and the key (event, number), with the highest bit set, so
+    that it is no ordinal; among a million spawned particles the chance that two share an id is 5e-8.
+    life, event and number count modulo 2**32. Arrays of uint64 parents give arrays.
     """
     low, high, _, _ = philox4x32(counter_of(parent, life, SPAWN_TAG), (event, number))
     return low | high << 32 | SPAWNED
