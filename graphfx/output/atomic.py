@@ -1,0 +1,44 @@
+"""Files that are whole or not there: written under another name in the same folder, then renamed."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import BinaryIO
+
+from graphfx.errors import OutputError, Problem
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a stream whose content becomes the file `path` when the block ends well.
+
+    If it does not, whatever the reason, nothing is left behind and a former file keeps its content.
+    """
+    target = Path(path)
+    temporary = target.with_name(f".{secrets.token_hex(8)}.part")
+    try:
+        with open(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666), "wb") as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(temporary, target)
+        _keep_rename(target.parent)
+    except OSError as error:
+        raise OutputError(Problem(f"cannot write {target}: {error.strerror or error}")) from error
+    finally:
+        with suppress(OSError):
+            temporary.unlink()
+
+
+def _keep_rename(folder: Path) -> None:
+    """Bring the folder's entry to the disk, where the system allows it."""
+    with suppress(OSError):
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(handle)
+        finally:
+            os.close(handle)

@@ -1,0 +1,77 @@
+"""Bin segments into tiles, in two passes: count, then write each to its place, in order.
+
+A segment belongs to a tile if it comes within its reach of the pixel centres there: for each row of
+tiles the part of the segment near that row is cut out, and the columns that this part comes near.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from graphfx.lanes import compiled
+from graphfx.lanes.inner import inner
+from graphfx.render.falloff import DISC, DISC_RAMP
+from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH, clipped
+from graphfx.render.projection import DX, DY, RADIUS0, RADIUS1, Segments, X, Y
+from graphfx.render.tiles import Tiles
+from graphfx.store.primitives import GRAIN, offsets
+from graphfx.store.threads import parallel_ranges, ranges
+
+MARGIN = 0.01
+"""Pixels added to the reach, so that rounding never loses a fragment."""
+
+
+@inner
+def _near(low, high, size, count):
+    """Return the first and last of `count` tiles whose pixel centres reach into low ... high."""
+    first = math.ceil(min(max((low - size + 0.5) / size, 0.0), float(count)))
+    last = math.floor(min(max((high - 0.5) / size, -1.0), float(count - 1)))
+    return int(first), int(last)
+
+
+@compiled
+def _bin(segments: Any, start: int, stop: int, across: int, down: int, places: Any, members: Any) -> None:
+    """Count each tile's segments in `places`; or, if there are `members`, write them there and move the places on."""
+    write = members.size > 0
+    for q in range(start, stop):
+        row, values = segments.places[q], segments.values[q]
+        x, y, dx, dy = row[X], row[Y], row[DX], row[DY]
+        reach = np.float64(max(values[RADIUS0], values[RADIUS1], np.float32(1.0))) + MARGIN
+        if segments.kind[q] & 3 == DISC:
+            reach += DISC_RAMP
+        first_row, last_row = _near(min(y, y + dy) - reach, max(y, y + dy) + reach, TILE_HEIGHT, down)
+        for tile_row in range(first_row, last_row + 1):
+            low = tile_row * TILE_HEIGHT + 0.5 - reach
+            first, last = clipped(y, dy, low, low + TILE_HEIGHT - 1.0 + 2.0 * reach, 0.0, 1.0)
+            a, b = x + first * dx, x + last * dx
+            first_column, last_column = _near(min(a, b) - reach, max(a, b) + reach, TILE_WIDTH, across)
+            for tile in range(tile_row * across + first_column, tile_row * across + last_column + 1):
+                if write:
+                    members[places[tile]] = q
+                places[tile] += 1
+
+
+def bin_segments(segments: Segments, width: int, height: int, perspective: bool, threads: int) -> Tiles:
+    """Return which segments touch which tile, nearest first in each."""
+    across, down = -(-width // TILE_WIDTH), -(-height // TILE_HEIGHT)
+    bounds = ranges(len(segments.kind), threads, GRAIN)
+    counts = np.zeros((len(bounds), across * down), np.int64)
+    nothing = np.empty(0, np.int32)
+
+    def count(piece: int, start: int, stop: int) -> None:
+        _bin(segments, start, stop, across, down, counts[piece], nothing)
+
+    parallel_ranges(count, bounds, threads)
+    starts = offsets(counts.sum(axis=0))
+    places = starts[:-1] + np.cumsum(counts, axis=0) - counts
+    members = np.empty(starts[-1], np.int32)
+
+    def scatter(piece: int, start: int, stop: int) -> None:
+        _bin(segments, start, stop, across, down, places[piece], members)
+
+    if members.size:
+        parallel_ranges(scatter, bounds, threads)
+    return Tiles(starts, members, across, width, height, perspective)

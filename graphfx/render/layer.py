@@ -1,0 +1,185 @@
+"""One layer: the fragments of one segment at the sixteen pixels of a group, 8 wide and 2 high.
+
+    t = clamp((p - p0) . (p1 - p0) / |p1 - p0|^2)      the closest point of the segment, on the screen
+    r = r0 + t (r1 - r0),  rho = max(r, 1)             radius there, pixels
+    opacity = o(s) shape(|p - p0 - t (p1 - p0)|, rho) weight(r, rho)      see falloff.py and evenness.py
+    key = max(k0 + t (k1 - k0), nearest end's key)     never nearer than the whole segment
+
+float32, relative to the centre of the tile's first pixel; long segments are clipped to the tile's
+neighbourhood first, in float64, so that they are as exact as short ones.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from graphfx.lanes import iota, register
+from graphfx.lanes.inner import inner
+from graphfx.math import exp2
+from graphfx.math.primitives import floor, maximum, minimum, sqrt, where
+from graphfx.render.falloff import DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
+from graphfx.render.projection import (
+    BLUE,
+    DX,
+    DY,
+    GREEN,
+    KEY0,
+    KEY1,
+    OPACITY,
+    RADIUS0,
+    RADIUS1,
+    RED,
+    SOLID,
+    THIN,
+    VARYING,
+    X,
+    Y,
+)
+
+TILE_WIDTH, TILE_HEIGHT = 8, 16
+GROUP_HEIGHT = 2
+GROUPS = TILE_HEIGHT // GROUP_HEIGHT
+LONG = 64.0
+"""Pixels across or down beyond which a segment is clipped."""
+SHORTEST = np.float32(1e-12)
+"""Squared length, pixels^2, up to which a segment is a point."""
+FALL = -SHARPNESS * math.log2(math.e)
+F = np.float32
+
+register(exp2)
+
+
+class Local(NamedTuple):
+    """A segment in a tile: float32, relative to the centre of the tile's first pixel."""
+
+    x: float
+    y: float
+    dx: float
+    dy: float
+    inverse: float
+    radius: float
+    radius_way: float
+    key: float
+    key_way: float
+    nearest: float
+    first: float
+    share: float
+    reach: float
+    rest: float
+    pace: float
+    kind: int
+
+
+@inner
+def clipped(start, way, low, high, first, last):
+    """Return first ... last narrowed to where start + t way lies within low ... high."""
+    if way != 0.0:
+        a, b = (low - start) / way, (high - start) / way
+        first, last = max(first, min(a, b)), min(last, max(a, b))
+    return first, last
+
+
+@inner
+def localize(segments, q, left, top):
+    """Return segment q relative to the pixel centre (left, top); its `inverse` is negative if it misses the tile."""
+    places, values, kind = segments.places, segments.values, np.int64(segments.kind[q])
+    x, y = places[q, X] - left, places[q, Y] - top
+    dx, dy = places[q, DX], places[q, DY]
+    r0, r1, k0, k1 = values[q, RADIUS0], values[q, RADIUS1], values[q, KEY0], values[q, KEY1]
+    reach = max(max(r0, r1), F(1.0))
+    if kind & 3 == DISC:
+        reach += F(DISC_RAMP)
+    first, last = 0.0, 1.0
+    if max(abs(dx), abs(dy)) > LONG:
+        margin = np.float64(reach) + 1.0
+        first, last = clipped(x, dx, -margin, TILE_WIDTH - 1 + margin, first, last)
+        first, last = clipped(y, dy, -margin, TILE_HEIGHT - 1 + margin, first, last)
+    share = last - first
+    radius_way, key_way = np.float64(r1) - np.float64(r0), np.float64(k1) - np.float64(k0)
+    way_x, way_y = F(dx * share), F(dy * share)
+    squared = way_x * way_x + way_y * way_y
+    inverse = F(1.0) / squared if squared > SHORTEST else F(0.0)
+    pace = segments.pace[q]
+    return Local(
+        F(x + first * dx), F(y + first * dy), way_x, way_y, inverse if share >= 0.0 else F(-1.0),
+        F(r0 + first * radius_way), F(share * radius_way), F(k0 + first * key_way), F(share * key_way),
+        min(k0, k1), F(first), F(share), reach,
+        pace if kind & SOLID else F(0.0), F(0.0) if kind & SOLID else pace, kind,
+    )
+
+
+@inner
+def groups_touched(local):
+    """Return the first and last group of rows that the segment may touch; the first is beyond the last if none."""
+    first, last = clipped(local.x, local.dx, -local.reach, F(TILE_WIDTH - 1) + local.reach, F(0.0), F(1.0))
+    a, b = local.y + first * local.dy, local.y + last * local.dy
+    top, bottom = min(a, b) - local.reach - F(0.01), max(a, b) + local.reach + F(0.01)
+    if local.inverse < F(0.0) or not (first <= last and top < F(TILE_HEIGHT) and bottom > F(-1.0)):
+        return 0, -1
+    return int(max(top * F(0.5) + F(0.5), F(0.0))), int(min(bottom * F(0.5), F(GROUPS - 1)))
+
+
+@inner
+def pixel_columns():
+    """Return the column of each lane, 0 to 7."""
+    return iota() - floor(iota() * 0.125) * 8.0
+
+
+@inner
+def pixel_rows(group):
+    """Return the row of each lane in the tile."""
+    return floor(iota() * 0.125) + F(GROUP_HEIGHT * group)
+
+
+@inner
+def nearest_point(local, group):
+    """Return t of the closest point of the segment, and the distance to it in pixels."""
+    across, down = pixel_columns() - local.x, pixel_rows(group) - local.y
+    t = minimum(maximum((across * local.dx + down * local.dy) * local.inverse, 0.0), 1.0)
+    across, down = across - t * local.dx, down - t * local.dy
+    return t, sqrt(across * across + down * down)
+
+
+@inner
+def fragments(local, group, square):
+    """Return (key, opacity at the full opacity of 1, t, which lanes are touched); `square` says perspective."""
+    t, distance = nearest_point(local, group)
+    key = maximum(local.key + t * local.key_way, local.nearest)
+    radius = local.radius + t * local.radius_way
+    clamped = maximum(radius, 1.0)
+    speed = key * key * local.pace if square else key * 0.0 + local.pace
+    code = local.kind & 3
+    if code == DISC:
+        shape = minimum(clamped + DISC_RAMP - distance, 1.0)
+    elif code == GAUSSIAN:
+        q = minimum(distance / clamped, 1.0)
+        shape = (exp2(q * q * FALL) - EDGE) * (1.0 / (1.0 - EDGE))
+        shape = where(distance < clamped, shape, 0.0)
+    else:
+        shape = (clamped - distance) / clamped
+    if local.kind & THIN:
+        share = radius * (radius + local.rest) / (clamped * (clamped + local.rest + speed))
+    else:
+        share = (radius + local.rest) / (radius + local.rest + speed)
+    return key, shape * share, t, shape > 0.0
+
+
+@inner
+def colored(segments, q, local, key, t, square):
+    """Return (opacity, red, green, blue) where s = t k1 / k(t) in perspective, s = t in orthographic."""
+    values, tails = segments.values, segments.tails
+    none = t * 0.0
+    opacity, red = none + values[q, OPACITY], none + values[q, RED]
+    green, blue = none + values[q, GREEN], none + values[q, BLUE]
+    if local.kind & VARYING:
+        s = local.first + t * local.share
+        if square:
+            s = s * values[q, KEY1] / key
+        opacity = opacity + s * (tails[q, 3] - values[q, OPACITY])
+        red = red + s * (tails[q, 0] - values[q, RED])
+        green = green + s * (tails[q, 1] - values[q, GREEN])
+        blue = blue + s * (tails[q, 2] - values[q, BLUE])
+    return opacity, red, green, blue

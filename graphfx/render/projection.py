@@ -1,0 +1,236 @@
+"""Project particles to the screen: one segment for each streak that can touch the picture.
+
+Head and tail are brought to (x w, y w, w) by the camera of their own time and joined there, where
+the straight line is straight and every parameter is linear in s = 0 (head) ... 1 (tail). The part
+between the near and the far plane is kept. On the screen, with t the share of the projected segment,
+
+    radius r(t) = r0 + t (r1 - r0)        pixels: the linear world radius over the depth
+    key    k(t) = k0 + t (k1 - k0)        -1 / w in perspective, w in orthographic: orders by depth
+    s(t) = t k1 / k(t)                    for colour and opacity (orthographic: s = t)
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from graphfx.lanes import compiled
+from graphfx.lanes.inner import inner
+from graphfx.render.evenness import evenness
+
+GREATEST_RADIUS = 1e9
+"""Pixels; more than this is as good as this, and its square is a float32."""
+GREATEST_COLOR = np.float32(1e30)
+"""Colours are kept within this, so that differences and sums of them stay finite."""
+THIN, VARYING, SOLID = 4, 8, 16
+"""Bits of a segment's kind, beside its falloff: radius under a pixel somewhere; colour or opacity differ; not exposed."""
+X, Y, DX, DY = 0, 1, 2, 3
+"""Places in a segment's row of float64: the head on the screen and the way to the tail, pixels."""
+RADIUS0, RADIUS1, KEY0, KEY1, OPACITY, RED, GREEN, BLUE = range(8, 16)
+"""Places in the same row seen as float32. A negative opacity says that the stream's blend is `add`."""
+
+
+class View(NamedTuple):
+    """The two cameras and the picture."""
+
+    head: np.ndarray
+    tail: np.ndarray
+    head_scale: float
+    tail_scale: float
+    near: float
+    far: float
+    perspective: bool
+    width: int
+    height: int
+
+
+class Look(NamedTuple):
+    """How one stream looks: see Falloff; `sign` is -1 for `add`."""
+
+    code: int
+    width: float
+    area: float
+    reach: float
+    sign: float
+    exposed: bool
+    varies: bool
+
+
+class Segments(NamedTuple):
+    """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need."""
+
+    places: np.ndarray
+    values: np.ndarray
+    tails: np.ndarray
+    pace: np.ndarray
+    kind: np.ndarray
+    nearest: np.ndarray
+
+
+def empty_segments(count: int, varies: bool) -> Segments:
+    """Return room for `count` segments; colours of tails only if any varies."""
+    places = np.empty((count, 8), np.float64)
+    return Segments(
+        places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
+        np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
+    )
+
+
+@inner
+def _transformed(matrix, x, y, z):
+    return (
+        matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3],
+        matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3],
+        matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3],
+    )
+
+
+@inner
+def _between_planes(head, tail, near, far):
+    """Return the part of s = 0 ... 1 that lies between the planes; its end is below its start where there is none."""
+    start, stop = 0.0, 1.0
+    way = tail - head
+    if way == 0.0:
+        return (0.0, 1.0) if near <= head <= far else (1.0, 0.0)
+    at_near, at_far = (near - head) / way, (far - head) / way
+    return max(start, min(at_near, at_far)), min(stop, max(at_near, at_far))
+
+
+@inner
+def _mixed(a, b, s):
+    """Return a + s (b - a), exactly a at 0 and b at 1."""
+    return b if s == 1.0 else a + s * (b - a)
+
+
+@inner
+def _finite(columns, masks, i):
+    total = 0.0
+    for c in range(17):
+        value = columns[c][i & masks[c]]
+        total += value - value
+    return total == 0.0
+
+
+@inner
+def _unit(value):
+    return min(max(value, 0.0), 1.0)
+
+
+@inner
+def _color(value):
+    return np.float64(min(max(value, -GREATEST_COLOR), GREATEST_COLOR))
+
+
+@inner
+def _screen_segment(columns, masks, i, view):
+    """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1)) of particle i."""
+    head = _transformed(view.head, columns[0][i & masks[0]], columns[1][i & masks[1]], columns[2][i & masks[2]])
+    tail = _transformed(view.tail, columns[3][i & masks[3]], columns[4][i & masks[4]], columns[5][i & masks[5]])
+    first, last = _between_planes(head[2], tail[2], view.near, view.far)
+    r_head = max(np.float64(columns[6][i & masks[6]]), 0.0) * view.head_scale
+    r_tail = max(np.float64(columns[7][i & masks[7]]), 0.0) * view.tail_scale
+    x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
+    y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
+    k0, k1 = _mixed(head[2], tail[2], first), _mixed(head[2], tail[2], last)
+    r0, r1 = _mixed(r_head, r_tail, first), _mixed(r_head, r_tail, last)
+    if view.perspective:
+        i0, i1 = 1.0 / k0, 1.0 / k1
+        x0, y0, r0, k0 = x0 * i0, y0 * i0, r0 * i0, -i0
+        x1, y1, r1, k1 = x1 * i1, y1 * i1, r1 * i1, -i1
+    r0, r1 = min(r0, GREATEST_RADIUS), min(r1, GREATEST_RADIUS)
+    visible = first <= last and max(r0, r1) > 0.0
+    return visible, first, last, (x0, y0, x1 - x0, y1 - y0, r0, r1, k0, k1)
+
+
+@inner
+def _touches(segment, reach, width, height):
+    """Return whether a segment's bounding box holds the centre of a pixel of the picture."""
+    x, y, dx, dy, r0, r1, _, _ = segment
+    margin = max(r0, r1, 1.0) + reach
+    return (
+        max(x, x + dx) + margin > 0.5 and min(x, x + dx) - margin < width - 0.5
+        and max(y, y + dy) + margin > 0.5 and min(y, y + dy) - margin < height - 0.5
+    )
+
+
+@inner
+def _paces(segment, look, perspective):
+    """Return (rest, pace) for `weight`; in perspective the speed is pace k(t)^2, the screen speed of even motion in s."""
+    _, _, dx, dy, _, _, k0, k1 = segment
+    pace = look.width / look.area * math.sqrt(dx * dx + dy * dy)
+    if not look.exposed:
+        return pace, 0.0
+    return 0.0, pace / (k0 * k1) if perspective else pace
+
+
+@inner
+def _true_total(segment, look):
+    """Return the total of opacity 1: of the capsule if solid, of the still particle if exposed."""
+    _, _, dx, dy, r0, r1, _, _ = segment
+    still = look.area * (r0 * r0 + r1 * r1) * 0.5
+    return still if look.exposed else still + look.width * math.sqrt(dx * dx + dy * dy) * (r0 + r1) * 0.5
+
+
+@inner
+def _write_values(columns, masks, i, first, last, factor, look, segments, at):
+    """Write colour and opacity of both ends; return whether they differ and whether any opacity is left."""
+    values, tails = segments.values, segments.tails
+    head, tail = _unit(np.float64(columns[14][i & masks[14]])), _unit(np.float64(columns[15][i & masks[15]]))
+    opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, 1.0))
+    opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, 1.0))
+    values[at, OPACITY] = opacity0
+    varying = opacity0 != opacity1
+    for c in range(3):
+        head, tail = _color(columns[8 + c][i & masks[8 + c]]), _color(columns[11 + c][i & masks[11 + c]])
+        values[at, RED + c] = _mixed(head, tail, first)
+        if look.varies:
+            tails[at, c] = _mixed(head, tail, last)
+            varying = varying or head != tail
+    if look.varies:
+        tails[at, 3] = opacity1
+    return varying, opacity0 != 0.0 or opacity1 != 0.0
+
+
+@inner
+def _write_segment(segment, rest, pace, kind, segments, at):
+    x, y, dx, dy, r0, r1, k0, k1 = segment
+    places, values = segments.places, segments.values
+    places[at, X], places[at, Y], places[at, DX], places[at, DY] = x, y, dx, dy
+    values[at, RADIUS0], values[at, RADIUS1] = r0, r1
+    values[at, KEY0], values[at, KEY1] = k0 + 0.0, k1 + 0.0
+    segments.pace[at] = rest + pace
+    segments.kind[at] = kind
+    segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
+
+
+@compiled
+def project(columns, masks, view, look, start, stop, segments, offset):
+    """Write the segments of particles start ... stop from row offset + start on; return how many, and how many were dropped."""
+    at, dropped = offset + start, 0
+    for i in range(start, stop):
+        if not _finite(columns, masks, i):
+            dropped += 1
+            continue
+        visible, first, last, segment = _screen_segment(columns, masks, i, view)
+        if not visible or not _touches(segment, look.reach, view.width, view.height):
+            continue
+        rest, pace = _paces(segment, look, view.perspective)
+        square = view.perspective and look.exposed
+        factor = evenness(look.code, segment, _true_total(segment, look), rest, pace, square)
+        if look.exposed:
+            factor *= _unit(np.float64(columns[16][i & masks[16]])) * (last - first)
+        varying, any_opacity = _write_values(columns, masks, i, first, last, factor, look, segments, at)
+        if not any_opacity:
+            continue
+        kind = look.code
+        if min(segment[4], segment[5]) < 1.0:
+            kind |= THIN
+        if varying:
+            kind |= VARYING
+        if not look.exposed:
+            kind |= SOLID
+        _write_segment(segment, rest, pace, kind, segments, at)
+        at += 1
+    return at - offset - start, dropped

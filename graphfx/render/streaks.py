@@ -1,0 +1,80 @@
+"""What is rendered: the particles of one stream with their streaks, as columns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphfx.render.falloff import FALLOFFS
+
+Column = np.ndarray | float
+Color = np.ndarray | tuple[float, float, float]
+BLENDS = ("over", "add")
+MODES = ("exposed", "solid")
+
+
+@dataclass
+class Streaks:
+    """The particles of one stream: each is a streak from its tail to its head.
+
+    | field | unit | meaning |
+    |---|---|---|
+    | `head`, `tail` | m | positions (3, n), at the end and at the opening of the shutter; no tail: a disc |
+    | `head_radius`, `tail_radius` | m | (n,) or one number for all; the tail's is the head's unless given, as below |
+    | `head_color`, `tail_color` | linear RGB | (3, n) or one (r, g, b); values above 1 are allowed |
+    | `head_opacity`, `tail_opacity` | 0 to 1 | at the centre |
+    | `share` | 0 to 1 | the part of the shutter for which the particle lives (`exposed` only) |
+    | `blend` | | `over`, or `add`: shines without hiding what is behind |
+    | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc` |
+    | `streak` | | `exposed`: each point has the opacity of the time spent over it; `solid`: full opacity all along |
+
+    Fragments of the same depth are in the order of streams and of particles within them.
+    """
+
+    head: np.ndarray
+    tail: np.ndarray | None = None
+    head_radius: Column = 0.01
+    tail_radius: Column | None = None
+    head_color: Color = (1.0, 1.0, 1.0)
+    tail_color: Color | None = None
+    head_opacity: Column = 1.0
+    tail_opacity: Column | None = None
+    share: Column = 1.0
+    blend: str = "over"
+    falloff: str = "linear"
+    streak: str = "exposed"
+
+    def __post_init__(self) -> None:
+        """Refuse a name that is not known."""
+        for name, known in (("blend", BLENDS), ("falloff", tuple(FALLOFFS)), ("streak", MODES)):
+            if getattr(self, name) not in known:
+                raise ValueError(f"{name} is {getattr(self, name)!r}; it must be one of {', '.join(known)}")
+
+    @property
+    def count(self) -> int:
+        """Return the number of particles."""
+        return self.head.shape[1]
+
+    @property
+    def varies(self) -> bool:
+        """Return whether colour or opacity may differ between head and tail."""
+        return self.tail_color is not None or self.tail_opacity is not None
+
+    def columns(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
+        """Return the 17 columns as float32 arrays, and for each the mask of its index: -1, or 0 where one number serves all.
+
+        Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share.
+        """
+        tail = self.head if self.tail is None else self.tail
+        tail_radius = self.head_radius if self.tail_radius is None else self.tail_radius
+        tail_color = self.head_color if self.tail_color is None else self.tail_color
+        tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
+        given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
+                 self.head_opacity, tail_opacity, self.share]
+        columns = tuple(np.require(column, np.float32, ["C", "W"]).reshape(-1) for column in given)
+        for column in columns:
+            if column.size not in (1, self.count):
+                raise ValueError(f"a column holds {column.size} values for {self.count} particles")
+        masks = np.array([0 if column.size == 1 else -1 for column in columns], np.int64)
+        return columns, masks

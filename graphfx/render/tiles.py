@@ -1,0 +1,150 @@
+"""Render tiles of 8 x 16 pixels: each segment makes layers in the groups that it touches, layers become light.
+
+A group whose pending list overflows is put aside and sorted whole afterwards (deep.py). The order is
+the same by either way: (key, place in the tile's list).
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from graphfx.lanes import compiled, load, mask_bits
+from graphfx.lanes.bits import count_bits, prefetch
+from graphfx.lanes.inner import inner
+from graphfx.math.primitives import where
+from graphfx.render.layer import (
+    GROUP_HEIGHT,
+    GROUPS,
+    TILE_HEIGHT,
+    TILE_WIDTH,
+    colored,
+    fragments,
+    groups_touched,
+    localize,
+)
+from graphfx.render.pending import (
+    CAPACITY,
+    EMPTY,
+    LANES,
+    LIGHT,
+    LIST,
+    SLOT,
+    add_slot,
+    clear_light,
+    insert,
+    release,
+)
+
+AHEAD = 12
+"""Segments whose memory is fetched ahead."""
+OVERFLOWED = -1
+"""Slots of a group that is to be sorted whole."""
+
+
+class Tiles(NamedTuple):
+    """The grid of tiles: the segments of tile k are members[starts[k] : starts[k + 1]], nearest first."""
+
+    starts: np.ndarray
+    members: np.ndarray
+    across: int
+    width: int
+    height: int
+    perspective: bool
+
+
+class Scratch(NamedTuple):
+    """One thread's memory: pending slots and light of a tile's groups, and for each group numbers of slots and fragments."""
+
+    slots: np.ndarray
+    light: np.ndarray
+    counts: np.ndarray
+    hits: np.ndarray
+    inside: np.ndarray
+
+
+def new_scratch() -> Scratch:
+    """Return scratch for one thread."""
+    numbers = np.zeros((3, GROUPS), np.int64)
+    return Scratch(np.zeros(GROUPS * LIST, np.float32), np.zeros(GROUPS * LIGHT, np.float32), *numbers)
+
+
+@inner
+def lanes_inside(left, top, width, height):
+    """Return the bits of the lanes of a group, its first pixel at (left, top), that lie in the picture."""
+    bits = 0
+    for lane in range(LANES):
+        if left + lane % TILE_WIDTH < width and top + lane // TILE_WIDTH < height:
+            bits |= 1 << lane
+    return bits
+
+
+@inner
+def _draw(segments, q, local, group, square, scratch):
+    """Draw one segment in one group, and count its fragments in the picture."""
+    key, shape, t, hit = fragments(local, group, square)
+    bits = mask_bits(hit)
+    if bits == 0:
+        return
+    opacity, red, green, blue = colored(segments, q, local, key, t, square)
+    base, count = group * LIST, scratch.counts[group]
+    first, used = release(scratch.light, group * LIGHT, scratch.slots, base, count, local.nearest)
+    if count - first >= CAPACITY:
+        scratch.counts[group] = OVERFLOWED
+    else:
+        scratch.counts[group] = insert(
+            scratch.slots, base, first, count, used,
+            where(hit, key, EMPTY), where(hit, opacity * shape, 0.0), red, green, blue,
+        )
+    scratch.hits[group] += count_bits(bits & scratch.inside[group])
+
+
+@inner
+def write_pixels(light, at, pixels, left, top, inside):
+    """Write a group's light to the film."""
+    for lane in range(LANES):
+        if inside >> lane & 1:
+            y, x = top + lane // TILE_WIDTH, left + lane % TILE_WIDTH
+            for plane in range(3):
+                pixels[y, x, plane] = light[at + (plane + 1) * LANES + lane]
+            pixels[y, x, 3] = np.float32(1.0) - light[at + lane]
+
+
+@inner
+def _finish_tile(tiles, k, scratch, overflowed, pixels):
+    """Composite what is pending and write the film; return the fragments of the groups that are done."""
+    left, top, total = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT, 0
+    for group in range(GROUPS):
+        if scratch.counts[group] == OVERFLOWED:
+            overflowed[k * GROUPS + group] = True
+            continue
+        for slot in range(scratch.counts[group]):
+            at = group * LIST + slot * SLOT
+            add_slot(scratch.light, group * LIGHT, scratch.slots, at, load(scratch.slots, at) < EMPTY)
+        write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group])
+        total += scratch.hits[group]
+    return total
+
+
+@compiled
+def render_tiles(segments, tiles, start, stop, scratch, overflowed, pixels):
+    """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments."""
+    total = 0
+    for k in range(start, stop):
+        left, top = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT
+        for group in range(GROUPS):
+            scratch.counts[group] = scratch.hits[group] = 0
+            scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
+            clear_light(scratch.light, group * LIGHT)
+        last_place = tiles.starts[k + 1] - 1
+        for place in range(tiles.starts[k], last_place + 1):
+            prefetch(segments.values, tiles.members[min(place + AHEAD, last_place)] * 16)
+            q = tiles.members[place]
+            local = localize(segments, q, left + 0.5, top + 0.5)
+            first, last = groups_touched(local)
+            for group in range(first, last + 1):
+                if scratch.counts[group] != OVERFLOWED:
+                    _draw(segments, q, local, group, tiles.perspective, scratch)
+        total += _finish_tile(tiles, k, scratch, overflowed, pixels)
+    return total

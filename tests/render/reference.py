@@ -1,0 +1,219 @@
+"""The meaning of a render, by brute force: every particle against every pixel, in float64.
+
+Only the key by which a pixel's fragments are ordered is float32, computed as the renderer documents it
+(camera-projected ends, clipped to the neighbourhood of the pixel's 8 x 16 tile if long): two orders that
+differ in a rounding would differ much in colour. `exact_keys` gives the keys without any of that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+F = np.float32
+INTEGRALS = {  # (across a streak, over a still particle) of radius 1
+    "linear": (1.0, math.pi / 3),
+    "gaussian": (0.8201803507618952, 0.6628397001716525),
+    "disc": (2.0, math.pi),
+}
+
+
+@dataclass
+class Segment:
+    """One streak on the screen."""
+
+    head: np.ndarray
+    way: np.ndarray
+    radius: tuple[float, float]
+    key: tuple[F, F]
+    colors: np.ndarray
+    opacity: tuple[float, float]
+    falloff: str
+    solid: bool
+    add: bool
+    perspective: bool
+
+    @property
+    def length(self) -> float:
+        return float(np.hypot(*self.way))
+
+    @property
+    def reach(self) -> float:
+        return max(*self.radius, 1.0) + (0.5 if self.falloff == "disc" else 0.0)
+
+    def nearest(self, x, y):
+        """Return t of the closest point to pixel centres, and the distance."""
+        across, down = x - self.head[0], y - self.head[1]
+        squared = self.length**2
+        t = np.clip((across * self.way[0] + down * self.way[1]) / squared, 0, 1) if squared > 1e-12 else across * 0
+        return t, np.hypot(across - t * self.way[0], down - t * self.way[1])
+
+    def at(self, x, y):
+        """Return (opacity before that of the particle, t, whether there is a fragment) at pixel centres."""
+        t, distance = self.nearest(x, y)
+        radius = self.radius[0] + t * (self.radius[1] - self.radius[0])
+        clamped = np.maximum(radius, 1.0)
+        across, area = INTEGRALS[self.falloff]
+        if self.falloff == "disc":
+            shape = np.clip(clamped + 0.5 - distance, 0, 1)
+        elif self.falloff == "linear":
+            shape = np.maximum(1 - distance / clamped, 0)
+        else:
+            edge = math.exp(-4.5)
+            shape = np.maximum((np.exp(-4.5 * (distance / clamped) ** 2) - edge) / (1 - edge), 0)
+        if self.solid:
+            total, room = (area * r**2 + across * r * self.length for r in (radius, clamped))
+            return shape * total / room, t, shape > 0
+        speed = self.length * self.inverse_depth(t) ** 2 / (self.inverse_depth(0) * self.inverse_depth(1))
+        return shape * area * radius**2 / (area * clamped**2 + across * clamped * speed), t, shape > 0
+
+    def inverse_depth(self, t):
+        """Return 1 / w at t; 1 where depth does not matter."""
+        k0, k1 = (-np.float64(k) for k in self.key)
+        return k0 + t * (k1 - k0) if self.perspective else 1.0
+
+    def attributes(self, t):
+        """Return (opacity, colours) at t."""
+        s = t * self.inverse_depth(1) / self.inverse_depth(t)
+        colors = self.colors[0][:, None, None] * (1 - s) + self.colors[1][:, None, None] * s
+        return self.opacity[0] * (1 - s) + self.opacity[1] * s, colors
+
+
+def value(column, i, components=0):
+    """Return particle i's value of a column, or the one for all."""
+    array = np.asarray(column, np.float32)
+    return np.float64(array if array.ndim == bool(components) else array[..., i])
+
+
+def evened(segment):
+    """Return the factor that keeps a small particle's sum over all pixel centres at its true total."""
+    fade = np.clip(2 - max(segment.radius), 0, 1) * np.clip(2 - segment.length / 8, 0, 1)
+    if fade == 0:
+        return 1.0
+    across, area = INTEGRALS[segment.falloff]
+    true = area * np.mean(np.square(segment.radius))
+    if segment.solid:
+        true += across * np.mean(segment.radius) * segment.length
+    corner = np.floor(segment.head)
+    grid = np.arange(-24, 25) + 0.5
+    sampled = segment.at(*np.meshgrid(corner[0] + grid, corner[1] + grid))[0].sum()
+    return 1 + fade * (true / sampled - 1)
+
+
+def project(stream, i, head_camera, tail_camera, width, height):
+    """Return particle i's Segment, None if it cannot be seen, or "dropped"."""
+    tail = stream.head if stream.tail is None else stream.tail
+    radii = [value(stream.head_radius if r is None else r, i) for r in (stream.head_radius, stream.tail_radius)]
+    colors = [value(stream.head_color if c is None else c, i, 3) for c in (stream.head_color, stream.tail_color)]
+    opacities = [value(stream.head_opacity if o is None else o, i) for o in (stream.head_opacity, stream.tail_opacity)]
+    share = value(stream.share, i)
+    if not np.isfinite([*stream.head[:, i], *tail[:, i], *radii, *np.ravel(colors), *opacities, share]).all():
+        return "dropped"
+    ends = []  # X and Y in pixels times depth, depth, radius in pixels times depth; then colour, opacity: linear in s
+    for camera, point, radius, color, opacity in zip(
+        (head_camera, tail_camera), (stream.head[:, i], tail[:, i]), radii, colors, opacities, strict=True
+    ):
+        right, up, ahead = camera.axes()
+        offset = np.asarray(point, np.float64) - camera.position
+        depth, scale = offset @ ahead, camera.scale(width)
+        center = depth if camera.perspective else 1.0
+        x, y = scale * (offset @ right) + width / 2 * center, height / 2 * center - scale * (offset @ up)
+        ends.append(np.array([x, y, depth, max(radius, 0) * scale, *color, np.clip(opacity, 0, 1)]))
+    cut = planes(ends[0][2], ends[1][2], head_camera.near, head_camera.far)
+    if cut is None or max(ends[0][3], ends[1][3]) == 0:
+        return None
+    first, last = (ends[0] + s * (ends[1] - ends[0]) if 0 < s < 1 else ends[int(s)] for s in cut)
+    divisors = (first[2], last[2]) if head_camera.perspective else (1.0, 1.0)
+    points = [end[:2] / d for end, d in zip((first, last), divisors, strict=True)]
+    keys = [F(-1 / end[2] if head_camera.perspective else end[2]) for end in (first, last)]
+    segment = Segment(
+        points[0], points[1] - points[0], (first[3] / divisors[0], last[3] / divisors[1]), tuple(keys),
+        np.stack([first[4:7], last[4:7]]), (1, 1), stream.falloff, stream.streak == "solid", stream.blend == "add",
+        head_camera.perspective,
+    )
+    factor = evened(segment) * (1 if segment.solid else np.clip(share, 0, 1) * (cut[1] - cut[0]))
+    segment.opacity = tuple(min(end[7] * factor, 1.0) for end in (first, last))
+    return segment
+
+
+def planes(head, tail, near, far):
+    """Return the part of s = 0 ... 1 between the planes, or None."""
+    if head == tail:
+        return (0, 1) if near <= head <= far else None
+    crossings = sorted([(near - head) / (tail - head), (far - head) / (tail - head)])
+    first, last = max(crossings[0], 0), min(crossings[1], 1)
+    return (first, last) if first <= last else None
+
+
+def keys_of(segment, left, top):
+    """Return the float32 keys of the 8 x 16 pixels whose first pixel's centre is (left, top), as documented in layer.py."""
+    x, y = segment.head[0] - left, segment.head[1] - top
+    dx, dy = segment.way
+    first, last = 0.0, 1.0
+    if max(abs(dx), abs(dy)) > 64:
+        margin = np.float64(max(F(segment.radius[0]), F(segment.radius[1]), F(1)))
+        margin += 1.5 if segment.falloff == "disc" else 1.0
+        for start, way, size in ((x, dx, 7), (y, dy, 15)):
+            if way != 0:
+                a, b = (-margin - start) / way, (size + margin - start) / way
+                first, last = max(first, min(a, b)), min(last, max(a, b))
+    share = last - first
+    k0, k1 = np.float64(segment.key[0]), np.float64(segment.key[1])
+    local_x, local_y, way_x, way_y = F(x + first * dx), F(y + first * dy), F(dx * share), F(dy * share)
+    key, key_way = F(k0 + first * (k1 - k0)), F(share * (k1 - k0))
+    squared = way_x * way_x + way_y * way_y
+    inverse = F(1) / squared if squared > F(1e-12) else F(0)
+    across = np.arange(8, dtype=F)[None, :] - local_x
+    down = np.arange(16, dtype=F)[:, None] - local_y
+    t = np.minimum(np.maximum((across * way_x + down * way_y) * inverse, F(0)), F(1))
+    return np.maximum(key + t * key_way, min(segment.key))
+
+
+def exact_keys(segment, left, top):
+    """Return the same in float64, without clipping."""
+    x, y = np.meshgrid(left + np.arange(8.0), top + np.arange(16.0))
+    k0, k1 = np.float64(segment.key[0]), np.float64(segment.key[1])
+    return k0 + segment.nearest(x, y)[0] * (k1 - k0)
+
+
+def reference(streams, head_camera, tail_camera, width, height):
+    """Return (pixels float64 (height, width, 4), number of fragments, number of dropped particles)."""
+    tail_camera = tail_camera or head_camera
+    made = [project(s, i, head_camera, tail_camera, width, height) for s in streams for i in range(s.head.shape[1])]
+    dropped = sum(isinstance(m, str) for m in made)
+    segments = [m for m in made if isinstance(m, Segment) and m.opacity != (0, 0)]
+    segments.sort(key=lambda segment: min(segment.key) + F(0))
+    pixels = np.zeros((-(-height // 16) * 16, -(-width // 8) * 8, 4))
+    fragments = 0
+    for top in range(0, height, 16):
+        for left in range(0, width, 8):
+            tile = pixels[top : top + 16, left : left + 8]
+            fragments += _tile(segments, tile, left + 0.5, top + 0.5, min(width - left, 8), min(height - top, 16))
+    return pixels[:height, :width], fragments, dropped
+
+
+def _tile(segments, tile, left, top, columns, rows):
+    x, y = np.meshgrid(left + np.arange(8.0), top + np.arange(16.0))
+    layers = []
+    for segment in segments:
+        low, high = np.minimum(0, segment.way) + segment.head, np.maximum(0, segment.way) + segment.head
+        reach = segment.reach + 1
+        if high[0] < left - reach or low[0] > left + 7 + reach or high[1] < top - reach or low[1] > top + 15 + reach:
+            continue
+        opacity, t, hit = segment.at(x, y)
+        if hit.any():
+            own, colors = segment.attributes(t)
+            layers.append((np.where(hit, keys_of(segment, left, top), F(np.inf)), opacity * own, colors, hit, segment.add))
+    if not layers:
+        return 0
+    keys, opacities, colors, hits, adds = (np.stack(part) for part in zip(*layers, strict=True))
+    order = np.argsort(keys, axis=0, kind="stable")
+    opacities = np.take_along_axis(np.where(hits, opacities, 0), order, 0)
+    colors = np.take_along_axis(colors, order[:, None], 0)
+    through = np.cumprod(1 - np.where(adds[order], 0, opacities), axis=0)
+    before = np.concatenate([np.ones((1, 16, 8)), through[:-1]])
+    tile[..., :3] = np.moveaxis((before[:, None] * opacities[:, None] * colors).sum(0), 0, -1)
+    tile[..., 3] = 1 - through[-1]
+    return int(hits[:, :rows, :columns].sum())

@@ -1,0 +1,159 @@
+"""What must be true of every render, whatever the scene."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphfx.render import renderer
+from graphfx.render.camera import Camera
+from graphfx.render.falloff import FALLOFFS
+from graphfx.render.streaks import Streaks
+
+from .scenes import CAMERA, comets, film, streaks
+
+PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
+"""One pixel a metre, 64 wide."""
+
+
+def one(head, tail=None, radius=0.7, **look) -> Streaks:
+    """Return one particle."""
+    return Streaks(np.array([head], np.float32).T, None if tail is None else np.array([tail], np.float32).T, radius, **look)
+
+
+def total(streak: Streaks) -> float:
+    """Return the sum of alpha over a picture of 64 x 64 pixels."""
+    return float(film(streak, camera=PIXELS, size=(64, 64)).pixels[..., 3].sum(dtype=float))
+
+
+@pytest.mark.parametrize("threads", [2, 7])
+def test_threads_change_no_byte(threads, monkeypatch):
+    """Any number of threads gives the same film, deep groups included."""
+    monkeypatch.setattr(renderer, "GRAIN", 16)
+    scene = [comets(1, 300), streaks(2, 200, blend="add"), _piercing(300)]
+    alone, together = film(*scene), film(*scene, threads=threads)
+    assert alone.pixels.tobytes() == together.pixels.tobytes()
+    assert (alone.fragments, alone.dropped) == (together.fragments, together.dropped)
+
+
+def _piercing(count: int) -> Streaks:
+    draw = np.random.default_rng(5)
+    head, tail = draw.uniform(-1, 1, (3, count)), draw.uniform(-1, 1, (3, count))
+    head[2], tail[2] = 3.0, -20.0
+    return Streaks(head.astype(np.float32), tail.astype(np.float32), 0.3, head_opacity=0.05)
+
+
+def test_lists_that_overflow_are_sorted(monkeypatch):
+    """The scene of piercing streaks does overflow the pending lists."""
+    numbers = []
+    sort = renderer.render_deep
+    monkeypatch.setattr(renderer, "render_deep", lambda *given: numbers.append(given[2]) or sort(*given))
+    film(_piercing(300))
+    assert numbers
+
+
+def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
+    """A group sorted whole holds what its list would have given, to the last bit."""
+    scene = [comets(3, 300), streaks(4, 200, blend="add")]
+    normal = film(*scene).pixels
+    render_tiles = renderer.render_tiles
+
+    def put_all_aside(*given):
+        render_tiles(*given)
+        given[5][:] = True
+        return 0
+
+    monkeypatch.setattr(renderer, "render_tiles", put_all_aside)
+    assert film(*scene).pixels.tobytes() == normal.tobytes()
+
+
+@pytest.mark.parametrize("falloff", FALLOFFS)
+@pytest.mark.parametrize("streak", ["exposed", "solid"])
+def test_total_of_a_small_particle_is_even_as_it_moves(falloff, streak):
+    """Wherever a particle under a pixel is, and however it is streaked, its total stays within 1 %."""
+    draw = np.random.default_rng(6)
+    for length in (0.0, 0.3, 2.0, 7.0):
+        wanted = FALLOFFS[falloff].area * 0.6**2 + (FALLOFFS[falloff].width * 0.6 * length if streak == "solid" else 0)
+        for _ in range(20):
+            x, y = draw.uniform(-8, 8, 2)
+            angle = draw.uniform(0, 2 * np.pi)
+            tail = (x + length * np.cos(angle), y + length * np.sin(angle), 0)
+            got = total(one((x, y, 0), tail, 0.6, falloff=falloff, streak=streak, head_opacity=0.3))
+            assert got == pytest.approx(0.3 * wanted, rel=0.01)
+
+
+@pytest.mark.parametrize("falloff", FALLOFFS)
+@pytest.mark.parametrize("radius", [0.3, 1.0, 3.0])
+@pytest.mark.parametrize("length", [0.0, 5.0, 13.0, 40.0])
+def test_exposed_streak_has_the_total_of_the_still_particle(falloff, radius, length):
+    """A faster particle is fainter: opacity summed over the streak is the disc's, whatever the speed."""
+    look = {"falloff": falloff, "head_opacity": 0.5}
+    heads = [(-20 + i / 8, i / 7, 0) for i in range(8)]
+    moving = [total(one((x, y, z), (x + length * 0.8, y + length * 0.6, z), radius, **look)) for x, y, z in heads]
+    disc = 0.5 * FALLOFFS[falloff].area * radius**2
+    assert np.mean(moving) == pytest.approx(disc, rel=0.03 + (0.1 if falloff == "disc" else 0) / max(radius, 1))
+
+
+def test_share_of_the_shutter_scales_the_exposed_alone():
+    """A particle alive for a third of the shutter has a third of the opacity; a solid one is solid."""
+    for streak, share in (("exposed", 1 / 3), ("solid", 1.0)):
+        whole, part = (total(one((0, 0, 0), (9, 4, 0), 3.0, streak=streak, share=s, head_opacity=0.2)) for s in (1.0, 1 / 3))
+        assert part == pytest.approx(share * whole, rel=1e-5)
+
+
+def test_streak_in_two_pieces_exposes_as_one():
+    """A streak cut in two, each with its share of the shutter, keeps its total, and nearly (r / L) its brightness."""
+    head, middle, tail = (-20.0, 0.3, 0.0), (0.0, 0.3, 0.0), (20.0, 0.3, 0.0)
+    whole = film(one(head, tail, 2.0, head_opacity=0.5), camera=PIXELS, size=(64, 64)).pixels[..., 3]
+    pieces = film(
+        one(head, middle, 2.0, head_opacity=0.5, share=0.5), one(middle, tail, 2.0, head_opacity=0.5, share=0.5),
+        camera=PIXELS, size=(64, 64),
+    ).pixels[..., 3]
+    assert np.abs(whole - pieces)[:, 15:28].max() < 2.0 / 40 * whole.max()
+    assert whole.sum() == pytest.approx(pieces.sum(), rel=0.02)
+
+
+@pytest.mark.parametrize("falloff", FALLOFFS)
+def test_shifting_a_scene_by_a_tile_shifts_the_picture(falloff):
+    """Pixels do not know their tiles: streaks 8 pixels to the right and 16 down give the same picture there."""
+    scene = streaks(7, 40, radius=(0.5, 6.0), length=12.0, spread=12.0, falloff=falloff)
+    shifted = Streaks(scene.head + np.float32([[8], [-16], [0]]), scene.tail + np.float32([[8], [-16], [0]]),
+                      scene.head_radius, head_color=scene.head_color, head_opacity=scene.head_opacity, falloff=falloff)
+    first, second = (film(s, camera=PIXELS, size=(64, 64)).pixels for s in (scene, shifted))
+    np.testing.assert_allclose(second[16:, 8:], first[:-16, :-8], rtol=0, atol=2e-5)
+
+
+def test_film_is_premultiplied():
+    """Over-blended colours of at most 1 never exceed alpha, which is at most 1; flames have none."""
+    pixels = film(streaks(8, 300, head_opacity=1.0)).pixels
+    assert pixels[..., 3].max() <= 1.0 and (pixels[..., :3] <= pixels[..., 3:] + 1e-6).all()
+    flames = film(streaks(8, 300, blend="add")).pixels
+    assert not flames[..., 3].any() and flames[..., :3].max() > 0.5
+
+
+def test_opaque_disc_hides_all_behind_it_and_nothing_before():
+    """At the centre of an opaque disc only what is nearer shows."""
+    behind, disc, before = one((0.5, 0.5, -1), radius=9.0, head_color=(1, 0, 0), falloff="disc"), one(
+        (0.5, 0.5, 0), radius=9.0, head_color=(0, 1, 0), falloff="disc"), one(
+        (0.5, 0.5, 1), radius=9.0, head_color=(0, 0, 1), falloff="disc", head_opacity=0.25)
+    center = film(behind, disc, before, camera=PIXELS, size=(64, 64)).pixels[31, 32]
+    np.testing.assert_allclose(center, [0, 0.75, 0.25, 1], atol=1e-6)
+
+
+def test_nothing_gives_an_empty_film():
+    """No streams, and streams of no particles."""
+    for scene in ([], [Streaks(np.zeros((3, 0), np.float32))]):
+        got = film(*scene)
+        assert not got.pixels.any() and got.fragments == got.dropped == 0
+
+
+def test_uniform_values_are_as_good_as_columns():
+    """One number for all particles gives the same bytes as a column of it."""
+    head = streaks(9).head
+    count = head.shape[1]
+    uniform = Streaks(head, None, 0.2, head_color=(0.1, 0.2, 0.3), head_opacity=0.5)
+    colors = np.repeat(np.float32([[0.1], [0.2], [0.3]]), count, 1)
+    columns = Streaks(
+        head, None, np.full(count, 0.2, np.float32), head_color=colors, head_opacity=np.full(count, 0.5, np.float32)
+    )
+    assert film(uniform, camera=CAMERA).pixels.tobytes() == film(columns, camera=CAMERA).pixels.tobytes()
