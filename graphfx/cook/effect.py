@@ -18,11 +18,10 @@ from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
 from graphfx.errors import UsageError
-from graphfx.graph import flatten
 from graphfx.graph.flat import FlatGraph
+from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
-from graphfx.output.png import picture_bytes
-from graphfx.output.atomic import write_bytes
+from graphfx.output.png import write_png
 from graphfx.plan.make import ImagePlan, Plan, make_plan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
@@ -82,7 +81,8 @@ class Effect:
     def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
         file = out / file_name(str(image.value("file")), self.flat.name, frame)
         background = None if image.value("transparent") else tuple(image.value("background"))
-        write_bytes(file, picture_bytes(film.pixels, background, float(image.value("exposure")), int(image.value("bits"))))
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_png(file, film.pixels * np.float32(2.0 ** float(image.value("exposure"))), background)
         return file
 
     def _checked(self, frames: list[int]) -> list[int]:
