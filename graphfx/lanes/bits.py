@@ -1,4 +1,4 @@
-"""Two machine instructions that Numba does not offer: counting bits, and fetching memory ahead of its use."""
+"""What else the processor can do: count bits, sum lanes in order, fetch memory ahead of its use."""
 
 from __future__ import annotations
 
@@ -20,6 +20,20 @@ def count_bits(typing: Any, bits: Any) -> Any:
         return builder.ctpop(context.cast(builder, values[0], sig.args[0], types.int64))
 
     return types.int64(bits), generate
+
+
+@intrinsic
+def sum_lanes(typing: Any, value: Any) -> Any:
+    """Return 0 + lane 0 + lane 1 + ..., added from left to right."""
+
+    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
+        element = value.llvm.element
+        kind = ir.FunctionType(element, [element, value.llvm])
+        name = f"llvm.vector.reduce.fadd.v{value.width}f{32 if value.single else 64}"
+        function = cgutils.get_or_insert_function(builder.module, kind, name)
+        return builder.call(function, [ir.Constant(element, 0.0), values[0]])
+
+    return value.dtype(value), generate
 
 
 @intrinsic

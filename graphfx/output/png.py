@@ -11,13 +11,16 @@ said so; it gets the least alpha that shows it over black as it is: max(alpha, r
 from __future__ import annotations
 
 import os
+from functools import cache
 
 import numpy as np
 
 from graphfx.output.atomic import whole_file
 
+STEPS = 65536
+"""Entries of the table for sRGB: fine enough that a byte is the nearest one to 0.03 of a level."""
 COMPRESSION = 4
-"""zlib's level: a third of the time of the usual 6 for a few percent of the size."""
+"""zlib's level: faster than the usual 6, for a percent of the size."""
 
 
 def over(film: np.ndarray, background: tuple[float, float, float]) -> np.ndarray:
@@ -33,22 +36,27 @@ def srgb(linear: np.ndarray) -> np.ndarray:
 
 def straight(film: np.ndarray) -> np.ndarray:
     """Return (height, width, 4) with colours that are not multiplied by alpha, clipped to 0 ... 1."""
-    clipped = np.clip(film, 0.0, 1.0)
-    alpha = clipped.max(axis=-1, keepdims=True)
-    colors = np.divide(clipped[..., :3], alpha, out=np.zeros_like(clipped[..., :3]), where=alpha > 0.0)
-    return np.concatenate([colors, alpha], axis=-1)
+    picture = np.clip(film, 0.0, 1.0)
+    alpha = picture.max(axis=-1)
+    picture[..., :3] /= np.where(alpha > 0.0, alpha, 1.0)[..., None]
+    picture[..., 3] = alpha
+    return picture
+
+
+@cache
+def _srgb_bytes() -> np.ndarray:
+    """Return the byte of sRGB for linear k / (STEPS - 1)."""
+    return (srgb(np.arange(STEPS) / (STEPS - 1)) * 255.0 + 0.5).astype(np.uint8)
 
 
 def eight_bit(film: np.ndarray, background: tuple[float, float, float] | None = None) -> np.ndarray:
     """Return a linear premultiplied film as sRGB bytes: RGB over a background, else RGBA."""
-    if background is not None:
-        return _bytes(srgb(over(film, background)))
-    picture = straight(film)
-    return np.concatenate([_bytes(srgb(picture[..., :3])), _bytes(picture[..., 3:])], axis=-1)
-
-
-def _bytes(value: np.ndarray) -> np.ndarray:
-    return (value * 255.0 + 0.5).astype(np.uint8)
+    picture = over(film, background).clip(0.0, 1.0) if background is not None else straight(film)
+    result = np.empty(picture.shape, np.uint8)
+    _srgb_bytes().take((picture[..., :3] * (STEPS - 1) + 0.5).astype(np.uint16), out=result[..., :3], mode="clip")
+    if background is None:
+        result[..., 3] = (picture[..., 3] * 255.0 + 0.5).astype(np.uint8)
+    return result
 
 
 def write_png(path: str | os.PathLike[str], film: np.ndarray, background: tuple[float, float, float] | None = None) -> None:

@@ -15,7 +15,7 @@ from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
 from graphfx.render.falloff import DISC, DISC_RAMP
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH, clipped
-from graphfx.render.projection import DX, DY, RADIUS0, RADIUS1, Segments, X, Y
+from graphfx.render.segments import DX, DY, RADIUS0, RADIUS1, Segments, X, Y
 from graphfx.render.tiles import Tiles
 from graphfx.store.primitives import GRAIN, offsets
 from graphfx.store.threads import parallel_ranges, ranges

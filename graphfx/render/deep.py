@@ -25,7 +25,7 @@ from graphfx.render.layer import (
     localize,
 )
 from graphfx.render.pending import LANES, clear_light
-from graphfx.render.projection import KEY0, KEY1
+from graphfx.render.segments import KEY0, KEY1
 from graphfx.render.tiles import lanes_inside, write_pixels
 
 FIRST_CAPACITY = 256

@@ -14,66 +14,54 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
+from graphfx.lanes import splat
+from graphfx.lanes.bits import sum_lanes
 from graphfx.lanes.inner import inner
-from graphfx.render.falloff import DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
+from graphfx.math.primitives import where
+from graphfx.render.falloff import DISC_RAMP
+from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH, fragments, groups_touched, localize
+from graphfx.render.segments import DX, DY, RADIUS0, RADIUS1, X, Y
 
 LARGE = 2.0
 """Radius in pixels from which on the sum is even enough."""
-LONG = 8.0
+LENGTHY = 8.0
 """Length in pixels up to which the total is kept exactly; at twice this not at all."""
 
 
 @inner
-def shape(code, distance, radius):
-    """Return the falloff at a distance from the centre, both in pixels."""
-    if code == DISC:
-        return min(max(radius + DISC_RAMP - distance, 0.0), 1.0)
-    if distance >= radius:
-        return 0.0
-    q = distance / radius
-    if code == GAUSSIAN:
-        return (math.exp(-SHARPNESS * q * q) - EDGE) / (1.0 - EDGE)
-    return 1.0 - q
+def _tiles_along(start, way, reach, size):
+    """Return the first pixel centre that a segment reaches along one axis, and how many tiles from there hold the rest."""
+    low, high = min(start, start + way) - reach, max(start, start + way) + reach
+    first = math.floor(low) + 0.5
+    return first, int((high - first) / size) + 1
 
 
 @inner
-def weight(radius, clamped, rest, speed):
-    """Return what clamping and exposure leave of the opacity: r (r + rest) / (rho (rho + rest + speed)).
-
-    Solid streaks have rest = (width / area) L and speed 0; exposed ones have rest 0 and
-    speed = (width / area) v, v in pixels a shutter at this point.
-    """
-    return radius * (radius + rest) / (clamped * (clamped + rest + speed))
-
-
-@inner
-def sampled_total(code, segment, rest, pace, square):
-    """Return the sum over all pixel centres of a capsule of opacity 1; segment is (x, y, dx, dy, r0, r1, k0, k1)."""
-    x, y, dx, dy, r0, r1, k0, k1 = segment
-    reach = max(r0, r1, 1.0) + DISC_RAMP
-    squared = dx * dx + dy * dy
-    inverse = 1.0 / squared if squared > 0.0 else 0.0
-    total = 0.0
-    for row in range(math.floor(min(y, y + dy) - reach), math.ceil(max(y, y + dy) + reach) + 1):
-        for column in range(math.floor(min(x, x + dx) - reach), math.ceil(max(x, x + dx) + reach) + 1):
-            across, down = column + 0.5 - x, row + 0.5 - y
-            t = min(max((across * dx + down * dy) * inverse, 0.0), 1.0)
-            distance = math.sqrt((across - t * dx) ** 2 + (down - t * dy) ** 2)
-            if distance < reach:
-                radius = r0 + t * (r1 - r0)
-                clamped = max(radius, 1.0)
-                key = k0 + t * (k1 - k0)
-                speed = pace * key * key if square else pace
-                total += shape(code, distance, clamped) * weight(radius, clamped, rest, speed)
-    return total
+def sampled_total(segments, q, square):
+    """Return the sum over all pixel centres of segment q at opacity 1, made by the layers that draw it."""
+    place, values = segments.places[q], segments.values[q]
+    reach = np.float64(max(values[RADIUS0], values[RADIUS1], np.float32(1.0))) + DISC_RAMP
+    left, across = _tiles_along(place[X], place[DX], reach, TILE_WIDTH)
+    top, down = _tiles_along(place[Y], place[DY], reach, TILE_HEIGHT)
+    total = splat(np.float32(0.0))
+    for tile in range(across * down):
+        local = localize(segments, q, left + tile % across * TILE_WIDTH, top + tile // across * TILE_HEIGHT)
+        first, last = groups_touched(local)
+        for group in range(first, last + 1):
+            _, shape, _, hit = fragments(local, group, square)
+            total = total + where(hit, shape, 0.0)
+    return np.float64(sum_lanes(total))
 
 
 @inner
-def evenness(code, segment, total, rest, pace, square):
-    """Return the factor by which opacity is multiplied; `total` is the capsule's true one."""
-    _, _, dx, dy, r0, r1, _, _ = segment
-    length = math.sqrt(dx * dx + dy * dy)
-    fade = min(max(LARGE - max(r0, r1), 0.0), 1.0) * min(max(2.0 - length / LONG, 0.0), 1.0)
+def evenness(segments, q, square, total):
+    """Return the factor for the opacity of segment q; `total` is its true one, `square` says perspective."""
+    place, values = segments.places[q], segments.values[q]
+    length = math.sqrt(place[DX] * place[DX] + place[DY] * place[DY])
+    radius = np.float64(max(values[RADIUS0], values[RADIUS1]))
+    fade = min(max(LARGE - radius, 0.0), 1.0) * min(max(2.0 - length / LENGTHY, 0.0), 1.0)
     if fade == 0.0:
         return 1.0
-    return 1.0 + fade * (total / sampled_total(code, segment, rest, pace, square) - 1.0)
+    return 1.0 + fade * (total / sampled_total(segments, q, square) - 1.0)

@@ -2,8 +2,13 @@
 
     t = clamp((p - p0) . (p1 - p0) / |p1 - p0|^2)      the closest point of the segment, on the screen
     r = r0 + t (r1 - r0),  rho = max(r, 1)             radius there, pixels
-    opacity = o(s) shape(|p - p0 - t (p1 - p0)|, rho) weight(r, rho)      see falloff.py and evenness.py
+    opacity = o(s) shape(distance / rho) weight(r, rho)            shape: see falloff.py
+    weight = r (r + rest) / (rho (rho + rest + speed))             what clamping and exposure leave
     key = max(k0 + t (k1 - k0), nearest end's key)     never nearer than the whole segment
+
+Solid streaks have rest = (width / area) L and speed 0, exposed ones rest 0 and speed = (width / area) v, v being
+the speed on the screen there, pixels a shutter. So a capsule of even radius has the total (width r L + area r^2)
+if it is solid, and the total area r^2 of the still particle if it is exposed, also with its radius clamped.
 
 float32, relative to the centre of the tile's first pixel; long segments are clipped to the tile's
 neighbourhood first, in float64, so that they are as exact as short ones.
@@ -21,7 +26,7 @@ from graphfx.lanes.inner import inner
 from graphfx.math import exp2
 from graphfx.math.primitives import floor, maximum, minimum, sqrt, where
 from graphfx.render.falloff import DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
-from graphfx.render.projection import (
+from graphfx.render.segments import (
     BLUE,
     DX,
     DY,

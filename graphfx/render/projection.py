@@ -19,19 +19,26 @@ import numpy as np
 from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
+from graphfx.render.segments import (
+    DX,
+    DY,
+    KEY0,
+    KEY1,
+    OPACITY,
+    RADIUS0,
+    RADIUS1,
+    RED,
+    SOLID,
+    THIN,
+    VARYING,
+    X,
+    Y,
+)
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
 GREATEST_COLOR = np.float32(1e30)
 """Colours are kept within this, so that differences and sums of them stay finite."""
-THIN, VARYING, SOLID = 4, 8, 16
-"""Bits of a segment's kind, beside its falloff: radius under a pixel somewhere; colour or opacity differ; not exposed."""
-X, Y, DX, DY = 0, 1, 2, 3
-"""Places in a segment's row of float64: the head on the screen and the way to the tail, pixels."""
-RADIUS0, RADIUS1, KEY0, KEY1, OPACITY, RED, GREEN, BLUE = range(8, 16)
-"""Places in the same row seen as float32. A negative opacity says that the stream's blend is `add`."""
-
-
 class View(NamedTuple):
     """The two cameras and the picture."""
 
@@ -56,26 +63,6 @@ class Look(NamedTuple):
     sign: float
     exposed: bool
     varies: bool
-
-
-class Segments(NamedTuple):
-    """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need."""
-
-    places: np.ndarray
-    values: np.ndarray
-    tails: np.ndarray
-    pace: np.ndarray
-    kind: np.ndarray
-    nearest: np.ndarray
-
-
-def empty_segments(count: int, varies: bool) -> Segments:
-    """Return room for `count` segments; colours of tails only if any varies."""
-    places = np.empty((count, 8), np.float64)
-    return Segments(
-        places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
-        np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
-    )
 
 
 @inner
@@ -156,13 +143,14 @@ def _touches(segment, reach, width, height):
 
 
 @inner
-def _paces(segment, look, perspective):
-    """Return (rest, pace) for `weight`; in perspective the speed is pace k(t)^2, the screen speed of even motion in s."""
+def _pace(segment, look, perspective):
+    """Return what weighs the segment's opacity (see layer.py): solid (width / area) L, exposed (width / area) of its speed.
+
+    In perspective the speed on the screen, pixels a shutter, of motion that is even in s is pace k(t)^2.
+    """
     _, _, dx, dy, _, _, k0, k1 = segment
     pace = look.width / look.area * math.sqrt(dx * dx + dy * dy)
-    if not look.exposed:
-        return pace, 0.0
-    return 0.0, pace / (k0 * k1) if perspective else pace
+    return pace / (k0 * k1) if look.exposed and perspective else pace
 
 
 @inner
@@ -174,8 +162,21 @@ def _true_total(segment, look):
 
 
 @inner
-def _write_values(columns, masks, i, first, last, factor, look, segments, at):
-    """Write colour and opacity of both ends; return whether they differ and whether any opacity is left."""
+def _write_place(segment, pace, look, segments, at):
+    """Write where a segment is."""
+    x, y, dx, dy, r0, r1, k0, k1 = segment
+    places, values = segments.places, segments.values
+    places[at, X], places[at, Y], places[at, DX], places[at, DY] = x, y, dx, dy
+    values[at, RADIUS0], values[at, RADIUS1] = r0, r1
+    values[at, KEY0], values[at, KEY1] = k0 + 0.0, k1 + 0.0
+    segments.pace[at] = pace
+    segments.kind[at] = look.code | (THIN if min(r0, r1) < 1.0 else 0) | (0 if look.exposed else SOLID)
+    segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
+
+
+@inner
+def _write_look(columns, masks, i, first, last, factor, look, segments, at):
+    """Write colour and opacity of both ends; return whether any opacity is left."""
     values, tails = segments.values, segments.tails
     head, tail = _unit(np.float64(columns[14][i & masks[14]])), _unit(np.float64(columns[15][i & masks[15]]))
     opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, 1.0))
@@ -190,19 +191,9 @@ def _write_values(columns, masks, i, first, last, factor, look, segments, at):
             varying = varying or head != tail
     if look.varies:
         tails[at, 3] = opacity1
-    return varying, opacity0 != 0.0 or opacity1 != 0.0
-
-
-@inner
-def _write_segment(segment, rest, pace, kind, segments, at):
-    x, y, dx, dy, r0, r1, k0, k1 = segment
-    places, values = segments.places, segments.values
-    places[at, X], places[at, Y], places[at, DX], places[at, DY] = x, y, dx, dy
-    values[at, RADIUS0], values[at, RADIUS1] = r0, r1
-    values[at, KEY0], values[at, KEY1] = k0 + 0.0, k1 + 0.0
-    segments.pace[at] = rest + pace
-    segments.kind[at] = kind
-    segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
+    if varying:
+        segments.kind[at] |= VARYING
+    return opacity0 != 0.0 or opacity1 != 0.0
 
 
 @compiled
@@ -216,21 +207,10 @@ def project(columns, masks, view, look, start, stop, segments, offset):
         visible, first, last, segment = _screen_segment(columns, masks, i, view)
         if not visible or not _touches(segment, look.reach, view.width, view.height):
             continue
-        rest, pace = _paces(segment, look, view.perspective)
-        square = view.perspective and look.exposed
-        factor = evenness(look.code, segment, _true_total(segment, look), rest, pace, square)
+        _write_place(segment, _pace(segment, look, view.perspective), look, segments, at)
+        factor = evenness(segments, at, view.perspective, _true_total(segment, look))
         if look.exposed:
             factor *= _unit(np.float64(columns[16][i & masks[16]])) * (last - first)
-        varying, any_opacity = _write_values(columns, masks, i, first, last, factor, look, segments, at)
-        if not any_opacity:
-            continue
-        kind = look.code
-        if min(segment[4], segment[5]) < 1.0:
-            kind |= THIN
-        if varying:
-            kind |= VARYING
-        if not look.exposed:
-            kind |= SOLID
-        _write_segment(segment, rest, pace, kind, segments, at)
-        at += 1
+        if _write_look(columns, masks, i, first, last, factor, look, segments, at):
+            at += 1
     return at - offset - start, dropped

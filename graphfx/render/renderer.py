@@ -18,7 +18,8 @@ from graphfx.render.falloff import FALLOFFS
 from graphfx.render.film import Film
 from graphfx.render.layer import GROUPS
 from graphfx.render.pending import LANES, LIGHT, PLANES
-from graphfx.render.projection import Look, Segments, View, empty_segments, project
+from graphfx.render.projection import Look, View, project
+from graphfx.render.segments import Segments, empty_segments
 from graphfx.render.streaks import Streaks
 from graphfx.render.tiles import Tiles, new_scratch, render_tiles
 from graphfx.store.primitives import GRAIN
@@ -27,6 +28,9 @@ from graphfx.store.threads import parallel, parallel_ranges, ranges
 
 PIECES = 16
 """Pieces of the picture for each thread: enough that none waits long for the last."""
+
+PROJECTED = 4096
+"""Fewest particles to project worth a thread of their own."""
 
 Listener = Callable[[str], Any]
 
@@ -73,7 +77,7 @@ def _project(
         look = Look(
             *FALLOFFS[stream.falloff], -1.0 if stream.blend == "add" else 1.0, stream.streak == "exposed", stream.varies
         )
-        bounds = ranges(stream.count, threads, GRAIN)
+        bounds = ranges(stream.count, threads, PROJECTED)
         results: list[tuple[int, int]] = [(0, 0)] * len(bounds)
 
         def work(piece: int, start: int, stop: int, given: Any = (columns, masks, view, look), offset: int = offset,

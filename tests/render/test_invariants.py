@@ -30,6 +30,7 @@ def total(streak: Streaks) -> float:
 def test_threads_change_no_byte(threads, monkeypatch):
     """Any number of threads gives the same film, deep groups included."""
     monkeypatch.setattr(renderer, "GRAIN", 16)
+    monkeypatch.setattr(renderer, "PROJECTED", 16)
     scene = [comets(1, 300), streaks(2, 200, blend="add"), _piercing(300)]
     alone, together = film(*scene), film(*scene, threads=threads)
     assert alone.pixels.tobytes() == together.pixels.tobytes()
