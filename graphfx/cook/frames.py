@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from graphfx.errors import UsageError
 
@@ -25,3 +26,19 @@ def parse_frames(text: str, first: int, last: int) -> list[int]:
                              "change time.frames in the graph to have more")
         found.update(range(begin, end + 1, step))
     return sorted(found)
+
+
+def frames_text(frames: Iterable[int]) -> str:
+    """Return the shortest common way to type a set of frames, which `parse_frames` reads back."""
+    left, parts = sorted(set(frames)), []
+    while left:
+        step = left[1] - left[0] if len(left) > 1 else 1
+        count = 1
+        while count < len(left) and left[count] - left[count - 1] == step:
+            count += 1
+        if count == 2 and step > 1:
+            count = 1
+        many = f"-{left[count - 1]}" + (f"x{step}" if step > 1 else "")
+        parts.append(f"{left[0]}{many if count > 1 else ''}")
+        left = left[count:]
+    return ",".join(parts)

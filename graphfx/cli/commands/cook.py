@@ -1,0 +1,147 @@
+"""`graphfx cook`: carry a graph out and write its frames."""
+
+from __future__ import annotations
+
+import json
+import shlex
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from graphfx.cli.options import debug, library, parameters
+from graphfx.cli.progress import in_words, progress_for
+from graphfx.errors import EXIT_INTERRUPTED, OutputError
+
+if TYPE_CHECKING:
+    from graphfx.cook.effect import Effect, FrameReport
+
+
+@click.command()
+@click.argument("graph")
+@click.option("--frames", metavar="SET", help="Frames to write: 12, 1-48, 1-48x2 or several with commas; all if not given.")
+@click.option("--out", metavar="DIR", help="Folder for the files, made if missing; out/NAME OF THE GRAPH if not given.")
+@parameters
+@click.option("--threads", type=click.IntRange(1, 256), metavar="N", help="Threads to use; all processors if not given.")
+@library
+@click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
+@click.option("--json", "as_json", is_flag=True, help="Print a line of JSON for each frame, and one at the end.")
+@debug
+@click.pass_context
+def command(context: click.Context, graph: str, frames: str | None, out: str | None, parameters: dict[str, str],
+            threads: int | None, library: tuple[str, ...], dry_run: bool, as_json: bool) -> None:
+    """Simulate GRAPH and write its frames."""
+    from graphfx.lanes.host import use_wide_registers
+
+    use_wide_registers()
+    from graphfx.cook.effect import load
+    from graphfx.cook.frames import parse_frames
+
+    effect = load(graph, library, parameters)
+    wanted = parse_frames(frames, effect.frames[0], effect.frames[-1]) if frames is not None else effect.frames
+    cook = Cook(effect, wanted, Path("out") / effect.flat.name if out is None else Path(out), threads, as_json)
+    if dry_run:
+        cook.tell()
+        return
+    try:
+        cook.run()
+    except KeyboardInterrupt:
+        given = [part for name, value in parameters.items() for part in ("--set", f"{name}={value}")]
+        given += [part for folder in library for part in ("--library", folder)]
+        given += ["--threads", str(threads)] if threads is not None else []
+        cook.tell_how_to_go_on(["graphfx", "cook", graph, "--out", str(cook.out), *given])
+        context.exit(EXIT_INTERRUPTED)
+
+
+def ready(out: Path) -> None:
+    """Make the folder for the files, and see that one can be written there before any work is done."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as error:
+        in_the_way = "it is a file" if out.is_file() else "a file is in its way"
+        cause = in_the_way if isinstance(error, (FileExistsError, NotADirectoryError)) else error.strerror
+        raise OutputError(f"nothing can be written in {out}: {cause}; choose another folder with --out") from error
+
+
+@dataclass
+class Cook:
+    """One cook, and what is told of it."""
+
+    effect: Effect
+    frames: list[int]
+    out: Path
+    threads: int | None
+    as_json: bool
+    done: list[int] = field(default_factory=list)
+    dropped: int = 0
+
+    def run(self) -> None:
+        """Cook all frames; say what was made."""
+        from graphfx.lanes.cache import listeners
+
+        ready(self.out)
+        started = time.monotonic()
+        with progress_for(len(self.frames), terminal=sys.stderr.isatty(), quiet=self.as_json) as progress:
+
+            def report(frame: FrameReport) -> None:
+                self.done.append(frame.frame)
+                self.dropped += frame.dropped
+                progress.frame(frame)
+                if self.as_json:
+                    self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
+                                 "dropped": frame.dropped, "files": list(map(str, frame.files))})
+
+            listeners.append(progress.compiling)
+            try:
+                files = self.effect.cook(self.out, self.frames, self.threads, report)
+            finally:
+                listeners.remove(progress.compiling)
+        seconds = time.monotonic() - started
+        if self.dropped:
+            click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
+        if self.as_json:
+            self._print({"frames": len(self.done), "files": len(files), "seconds": round(seconds, 3)})
+        else:
+            click.echo(f"wrote {counted(len(files), 'file')} in {self.out} ({in_words(seconds)})")
+
+    def tell(self) -> None:
+        """Say what would be written."""
+        from graphfx.cook.effect import file_name
+        from graphfx.cook.frames import frames_text
+
+        images = [{"node": image.node.path, "size": [int(number) for number in image.value("size")],
+                   "files": [str(self.out / file_name(str(image.value("file")), self.effect.flat.name, frame))
+                             for frame in self.frames]} for image in self.effect.plan.images]
+        if self.as_json:
+            self._print({"frames": self.frames, "images": images})
+            return
+        click.echo(f"would write frames {frames_text(self.frames)}: {counted(len(self.frames), 'frame')}")
+        for image in images:
+            files = image["files"]
+            last = f" to {files[-1]}" if len(files) > 1 else ""
+            click.echo(f"  {image['node']}: {image['size'][0]} x {image['size'][1]}, {files[0]}{last}")
+
+    def tell_how_to_go_on(self, again: list[str]) -> None:
+        """Say what is left after Ctrl-C, and the command for it."""
+        from graphfx.cook.frames import frames_text
+
+        left = [frame for frame in self.frames if frame not in set(self.done)]
+        made = f"after frame {self.done[-1]}; all files in {self.out} are whole" if self.done else "before any file was written"
+        click.echo(f"stopped {made}. To go on:", err=True)
+        click.echo(f"  {shlex.join([*again, '--frames', frames_text(left)])}", err=True)
+
+    @staticmethod
+    def _print(data: dict[str, Any]) -> None:
+        click.echo(json.dumps(data))
+        sys.stdout.flush()
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with its noun: `1 frame`, `2 frames`."""
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,44 @@
+"""Options that several commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import click
+
+from graphfx.errors import UsageError
+
+
+@dataclass
+class Settings:
+    """What holds for the whole command line."""
+
+    debug: bool = False
+
+
+def _set_debug(context: click.Context, parameter: click.Parameter, given: bool) -> None:
+    if given:
+        context.find_object(Settings).debug = True  # type: ignore[union-attr]
+
+
+debug: Callable[[Any], Any] = click.option("--debug", is_flag=True, is_eager=True, expose_value=False, callback=_set_debug,
+                                           help="Show where in graphfx an error came from.")
+library: Callable[[Any], Any] = click.option("--library", multiple=True, metavar="DIR",
+                                             help="A further folder with nodes/ and graphs/; may be given more than once.")
+
+
+def _parse_settings(context: click.Context, parameter: click.Parameter, given: tuple[str, ...]) -> dict[str, str]:
+    parsed: dict[str, str] = {}
+    for text in given:
+        name, equals, value = text.partition("=")
+        if not (equals and name.strip()):
+            raise UsageError(f"--set {text}: write it as name=value")
+        parsed[name.strip()] = value.strip()
+    return parsed
+
+
+parameters: Callable[[Any], Any] = click.option(
+    "--set", "parameters", multiple=True, metavar="NAME=VALUE", callback=_parse_settings,
+    help="Give a parameter of the graph a value; may be given more than once.")
