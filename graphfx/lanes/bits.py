@@ -1,4 +1,4 @@
-"""What else the processor can do: count bits, sum lanes in order, fetch memory ahead of its use."""
+"""What else the processor can do: count bits, sum lanes in order, read at an address, fetch ahead."""
 
 from __future__ import annotations
 
@@ -34,6 +34,21 @@ def sum_lanes(typing: Any, value: Any) -> Any:
         return builder.call(function, [ir.Constant(element, 0.0), values[0]])
 
     return value.dtype(value), generate
+
+
+@intrinsic
+def float_at(typing: Any, address: Any, index: Any) -> Any:
+    """Return the float32 at an address, an integer, plus `index` floats. Who calls keeps the array alive.
+
+    Many columns go to a kernel as one array of addresses: as arrays each would take seven arguments
+    and time to compile them.
+    """
+
+    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
+        base = builder.inttoptr(values[0], ir.FloatType().as_pointer())
+        return builder.load(builder.gep(base, [context.cast(builder, values[1], sig.args[1], types.int64)]), align=4)
+
+    return types.float32(types.int64, index), generate
 
 
 @intrinsic

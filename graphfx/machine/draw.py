@@ -6,7 +6,8 @@ from functools import cache
 
 from graphfx.lanes import inlined
 from graphfx.lanes.cache import engine_digest
-from graphfx.lanes.memory import FLOAT_LANES, multiply_high_low, word_constant
+from graphfx.lanes.memory import FLOAT_LANES
+from graphfx.lanes.operands import multiply_high_low, word_constant
 from graphfx.lanes.types import Real
 from graphfx.machine.kernels import DTYPES, Kernel, compile_source
 from graphfx.math.random import PHILOX_MULTIPLIERS, PHILOX_WEYL
@@ -14,17 +15,17 @@ from graphfx.math.random import PHILOX_MULTIPLIERS, PHILOX_WEYL
 FIRST, SECOND = PHILOX_MULTIPLIERS
 WEYL_FIRST, WEYL_SECOND = PHILOX_WEYL
 
-SOURCE = """def kernel(S, operands, M):
-    C = carray(operands, (64,))
+SOURCE = """def kernel(S, C, M):
+    first, second = read_number(C, 13), read_number(C, 14)
     for l in range(0, 256, {width}):
-        on = mask_at(R, M, C[0] + l)
+        on = read_mask(R, M, C, 0, l)
         if any_lane(on):
-            w = body0(R, word_at(R, S, C[1] + (l & C[2])), word_at(R, S, C[3] + (l & C[4])),
-                      word_at(R, S, C[5] + (l & C[6])), word_at(R, S, C[7] + (l & C[8])), C[13], C[14])
-            store_at(R, S, C[9] + l, on, uniform_of(R, w[0]))
-            store_at(R, S, C[10] + l, on, uniform_of(R, w[1]))
-            store_at(R, S, C[11] + l, on, uniform_of(R, w[2]))
-            store_at(R, S, C[12] + l, on, uniform_of(R, w[3]))
+            w = draw(R, read_word(R, S, C, 1, l), read_word(R, S, C, 3, l), read_word(R, S, C, 5, l), read_word(R, S, C, 7, l),
+                     first, second)
+            write_float(R, S, C, 9, l, on, uniform_of(R, w[0]))
+            write_float(R, S, C, 10, l, on, uniform_of(R, w[1]))
+            write_float(R, S, C, 11, l, on, uniform_of(R, w[2]))
+            write_float(R, S, C, 12, l, on, uniform_of(R, w[3]))
 """
 """Operands: mask, id (two words), life, cell, four results, the two words of the key."""
 
@@ -46,4 +47,4 @@ def draw_kernel(precision: int = 32) -> Kernel:
     """Return the kernel that draws four numbers for each particle."""
     dtype = DTYPES[precision]
     width = FLOAT_LANES[dtype]
-    return compile_source("draw", SOURCE.format(width=width), [philox_lanes], Real(dtype, width), engine_digest("math", "lanes", "machine"))
+    return compile_source("draw", SOURCE.format(width=width), {"draw": philox_lanes}, Real(dtype, width), engine_digest("math", "lanes", "machine"))

@@ -17,16 +17,17 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
-from numba import carray, types
+from numba import types
 from numba.core import errors
 from numba.core.ccallback import CFunc
 
 from graphfx.errors import Location, NodeError, Problem
-from graphfx.lanes import register
+from graphfx.lanes import any_lane, operands, register
 from graphfx.lanes.arithmetic import BRANCH, LaneBranchError
 from graphfx.lanes.cache import CheckedCache, digest_of, engine_digest
 from graphfx.lanes.memory import FLOAT_LANES
 from graphfx.lanes.types import Real
+from graphfx.machine.inline import inline_body
 from graphfx.program import Function
 
 BLOCK = 256
@@ -52,17 +53,10 @@ class Kernel:
 def _loads(function: Function, place: int) -> tuple[list[str], list[str], int]:
     lines, names = [], []
     for position, type_ in enumerate(function.arguments):
-        name = f"a{position}"
-        if type_ == "bool":
-            lines.append(f"{name} = mask_at(R, M, C[{place}] + (l & C[{place + 1}]))")
-            place += 2
-        else:
-            count = {"float": 1, "vec3": 3, "draw": 4}[type_]
-            parts = [f"load_at(R, S, C[{place + 2 * k}] + (l & C[{place + 2 * k + 1}]))" for k in range(count)]
-            place += 2 * count
-            made = {"float": parts[0], "vec3": f"Vec3({', '.join(parts)})", "draw": f"({', '.join(parts)})"}[type_]
-            lines.append(f"{name} = {made}")
-        names.append(name)
+        memory = "M" if type_ == "bool" else "S"
+        lines.append(f"a{position} = read_{'mask' if type_ == 'bool' else type_}(R, {memory}, C, {place}, l)")
+        names.append(f"a{position}")
+        place += 2 * {"bool": 1, "float": 1, "vec3": 3, "draw": 4}[type_]
     return lines, names, place
 
 
@@ -71,56 +65,58 @@ def _stores(function: Function, place: int) -> list[str]:
     for position, type_ in enumerate(function.results):
         value = "r" if len(function.results) == 1 else f"r[{position}]"
         if type_ == "bool":
-            lines.append(f"store_mask_at(R, M, C[{place}] + l, on & {value})")
-            place += 1
+            lines.append(f"write_mask(R, M, C, {place}, l, on & {value})")
         else:
-            parts = [value] if type_ == "float" else [f"{value}.{name}" for name in "xyz"]
-            for part in parts:
-                lines.append(f"store_at(R, S, C[{place}] + l, on, {part})")
-                place += 1
+            lines.append(f"write_{type_}(R, S, C, {place}, l, on, {value})")
+        place += 3 if type_ == "vec3" else 1
     return lines
 
 
-def _pass(function: Function, width: int, body: str, first: int) -> list[str]:
-    """Return the lines of one pass over a block: operands of the function begin at `first`."""
+def _pass(function: Function, width: int, body: str, first: int) -> tuple[list[str], dict[str, Any]]:
+    """Return the lines of one pass over a block, and the names in them; the function's operands begin at `first`."""
     loads, names, place = _loads(function, first)
     stores = _stores(function, place)
-    truths = [line.partition(" & ")[0] + ")" for line in stores if line.startswith("store_mask_at")]
-    lines = [f"for l in range(0, {BLOCK}, {width}):", "    on = mask_at(R, M, C[0] + l)",
+    truths = [line.partition(" & ")[0] + ")" for line in stores if line.startswith("write_mask")]
+    inlined = inline_body(function.body, names, body)
+    result, scope = inlined or (f"{body}({', '.join(names)})", {body: function.body})
+    lines = [f"for l in range(0, {BLOCK}, {width}):", "    on = read_mask(R, M, C, 0, l)",
              "    if on:" if width == 1 else "    if any_lane(on):",
-             *(f"        {line}" for line in (*loads, f"r = {body}({', '.join(names)})", *stores))]
+             *(f"        {line}" for line in (*loads, f"r = {result}", *stores))]
     if truths:
         lines += ["    else:", *(f"        {line}" for line in truths)]
-    return lines
+    return lines, scope
 
 
-def kernel_source(function: Function, width: int) -> str:
-    """Return the Python source of a function's kernel, or of its bundle's: that one is told the number first."""
-    lines = ["def kernel(S, operands, M):", "    C = carray(operands, (64,))"]
+def kernel_source(function: Function, width: int) -> tuple[str, dict[str, Any]]:
+    """Return the Python source of a function's kernel, or of its bundle's, and the functions that it names.
+
+    A bundle's kernel is told the function's number by its second operand.
+    """
+    lines, scope = ["def kernel(S, C, M):"], {}
     if function.bundle is None:
-        lines += [f"    {line}" for line in _pass(function, width, "body0", 1)]
+        inner, scope = _pass(function, width, "body", 1)
+        lines += [f"    {line}" for line in inner]
     else:
+        lines.append("    number = read_number(C, 1)")
         for member in function.bundle.functions:
-            lines.append(f"    {'elif' if member.number else 'if'} C[1] == {member.number}:  # {member.name}")
-            lines += [f"        {line}" for line in _pass(member, width, f"body{member.number}", 2)]
-    return "\n".join(lines) + "\n"
+            lines.append(f"    {'elif' if member.number else 'if'} number == {member.number}:  # {member.name}")
+            inner, named = _pass(member, width, f"body{member.number}", 2)
+            lines += [f"        {line}" for line in inner]
+            scope |= named
+    return "\n".join(lines) + "\n", scope
 
 
-def _scope(real: Real) -> dict[str, Any]:
-    from graphfx.lanes import any_lane, memory
-    from graphfx.math import Vec3
-
-    scope = {name: getattr(memory, name) for name in
-             ("load_at", "store_at", "mask_at", "store_mask_at", "word_at", "uniform_of")}
-    return scope | {"R": real, "Vec3": Vec3, "carray": carray, "any_lane": any_lane}
+def _memory(real: Real) -> dict[str, Any]:
+    names = [name for name in vars(operands) if name.startswith(("read_", "write_"))]
+    return {name: getattr(operands, name) for name in names} | {"R": real, "any_lane": any_lane, "uniform_of": operands.uniform_of}
 
 
-def compile_source(name: str, source: str, bodies: list[Any], real: Real, stamp: str) -> Kernel:
-    """Compile a kernel's source, or load it from the cache; `bodies` are its `body0`, `body1`, ..."""
+def compile_source(name: str, source: str, named: dict[str, Any], real: Real, stamp: str) -> Kernel:
+    """Compile a kernel's source, or load it from the cache; `named` are the functions that it names."""
     module_name = f"graphfx_kernels.{name}_{real.dtype}_{real.width}"
     module = ModuleType(module_name)
     sys.modules[module_name] = module
-    module.__dict__.update(_scope(real), **{f"body{k}": body for k, body in enumerate(bodies)})
+    module.__dict__.update(_memory(real), **named)
     file = f"<{module_name}>"
     linecache.cache[file] = (len(source), None, source.splitlines(keepends=True), file)
     exec(compile(source, file, "exec"), module.__dict__)
@@ -145,8 +141,9 @@ def _kernel_of(function: Function, precision: int, width: int) -> Kernel:
     files = sorted(set().union(*(register(member.body) for member in members)))
     stamp = digest_of([engine_digest("math", "lanes", "machine").encode(), *(file.read_bytes() for file in files)])
     name = function.bundle.name if function.bundle else function.name
+    source, named = kernel_source(function, width)
     try:
-        return compile_source(name, kernel_source(function, width), [member.body for member in members], Real(dtype, width), stamp)
+        return compile_source(name, source, named, Real(dtype, width), stamp)
     except errors.NumbaError as error:
         raise _located(function, error) from error
 

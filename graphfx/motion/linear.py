@@ -11,16 +11,16 @@ from __future__ import annotations
 from typing import Any
 
 from graphfx.math import cosinc, cross, dot, exp, length, phi1, phi2, sin3, sinc, sincos, where
-from graphfx.motion.basic import MOTION
+from graphfx.program import function
 
 
-@MOTION.function("vec3 vec3 vec3 float", "vec3 vec3")
+@function("vec3 vec3 vec3 float", "vec3 vec3")
 def fall(position: Any, velocity: Any, gravity: Any, dt: Any) -> Any:
     """P + V dt + g dt^2 / 2, V + g dt."""
     return position + (velocity + gravity * (dt * 0.5)) * dt, velocity + gravity * dt
 
 
-@MOTION.function("vec3 vec3 vec3 float float", "vec3 vec3")
+@function("vec3 vec3 vec3 float float", "vec3 vec3")
 def damped_fall(position: Any, velocity: Any, gravity: Any, damping: Any, dt: Any) -> Any:
     """With x = -d dt: P + V dt phi1(x) + g dt^2 phi2(x), V e^x + g dt phi1(x)."""
     x = -(damping * dt)
@@ -28,7 +28,7 @@ def damped_fall(position: Any, velocity: Any, gravity: Any, damping: Any, dt: An
     return position + velocity * first + gravity * (phi2(x) * dt * dt), velocity * exp(x) + gravity * first
 
 
-@MOTION.function("vec3 vec3 vec3 float", "vec3 vec3")
+@function("vec3 vec3 vec3 float", "vec3 vec3")
 def spin(position: Any, velocity: Any, rate: Any, dt: Any) -> Any:
     """Turn the velocity about w by |w| dt while it carries the particle along: a helix. [Sims 1990, 3.4.2]
 
@@ -45,7 +45,7 @@ def spin(position: Any, velocity: Any, rate: Any, dt: Any) -> Any:
     return moved, velocity * c + turned * wave + kept * bow
 
 
-@MOTION.function("vec3 vec3 float", "vec3")
+@function("vec3 vec3 float", "vec3")
 def turn(velocity: Any, rate: Any, dt: Any) -> Any:
     """Turn a vector about w by |w| dt: V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2."""
     angle = length(rate) * dt
@@ -73,7 +73,7 @@ SERIES_TERMS = 18
 """Enough for 1 / 18! < 2^-52 at |z| = 1."""
 
 
-@MOTION.function("vec3 vec3 vec3 float vec3 float", "vec3 vec3")
+@function("vec3 vec3 vec3 float vec3 float", "vec3 vec3")
 def spiral_fall(position: Any, velocity: Any, gravity: Any, damping: Any, rate: Any, dt: Any) -> Any:
     """Gravity, damping and turning together.
 

@@ -13,8 +13,10 @@ from graphfx.program.instructions import (
     Operand,
     Program,
     Uniform,
+    function,
 )
 
 __all__ = [
     "COMPONENTS", "Builder", "Bundle", "Call", "Column", "Draw", "Function", "Instruction", "Loop", "Operand", "Program", "Uniform",
+    "function",
 ]

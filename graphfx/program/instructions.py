@@ -34,6 +34,11 @@ class Function:
         return self.name
 
 
+def function(arguments: str, results: str) -> Callable[[Callable[..., Any]], Function]:
+    """Make an instruction of a scalar function: types are named in one string, parted by spaces."""
+    return lambda body: Function(body.__name__, body, tuple(arguments.split()), tuple(results.split()))
+
+
 @dataclass(eq=False)
 class Bundle:
     """Small functions that share one kernel, so that using another of them compiles nothing."""
@@ -43,12 +48,12 @@ class Bundle:
 
     def add(self, body: Callable[..., Any], arguments: tuple[str, ...], results: tuple[str, ...], name: str = "") -> Function:
         """Make a function of this bundle."""
-        function = Function(name or body.__name__, body, arguments, results, bundle=self, number=len(self.functions))
-        self.functions.append(function)
-        return function
+        made = Function(name or body.__name__, body, arguments, results, bundle=self, number=len(self.functions))
+        self.functions.append(made)
+        return made
 
     def function(self, arguments: str, results: str) -> Callable[[Callable[..., Any]], Function]:
-        """Decorate a scalar function: types are named in one string, parted by spaces."""
+        """Make an instruction of a scalar function, in this bundle."""
         return lambda body: self.add(body, tuple(arguments.split()), tuple(results.split()))
 
 
