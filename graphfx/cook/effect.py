@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook import warm
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
@@ -70,9 +71,12 @@ class Effect:
     def _cooked(self, out: Path, frames: list[int], threads: int) -> Iterator[FrameReport]:
         simulation = self.simulation(threads)
         wanted = set(self._checked(frames))
+        warming = warm.start() if frames else None
         for frame in simulation.frames(frames[-1]) if frames else ():
             if frame not in wanted:
                 continue
+            if warming is not None:
+                warming.wait()
             films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
             files = tuple(self._write(image, film, frame, out) for image, film in films)
             yield FrameReport(frame, sum(particles.alive for particles in simulation.particles.values()),

@@ -1,0 +1,59 @@
+"""Compile the renderer beside the simulation, on the first cook ever: two processes, two cores.
+
+Compiled code is cached on disk; a mark beside it says that the renderer's is there. Without the mark, a
+second process draws a small picture, which fills the cache while this one compiles the graph's kernels.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from graphfx.lanes.cache import cache_folder, engine_digest, listeners
+
+ENOUGH = 4096
+"""Particles that make the renderer sort by itself."""
+
+
+def _mark() -> Path:
+    processor = f"{os.environ.get('NUMBA_CPU_NAME', '')}{os.environ.get('NUMBA_CPU_FEATURES', '')}"
+    digest = engine_digest("math", "lanes", "store", "render")
+    return cache_folder() / f"renderer-{digest}-{abs(hash_text(processor)):x}.ready"
+
+
+def hash_text(text: str) -> int:
+    """Return a number for a text, the same in every process."""
+    return int.from_bytes(text.encode()[:64], "little") % (2**61 - 1)
+
+
+def start() -> subprocess.Popen[bytes] | None:
+    """Begin to compile the renderer, unless that was done before or there is no second process to be had."""
+    if _mark().exists() or not sys.executable:
+        return None
+    for listener in listeners:
+        listener("the renderer")
+    try:
+        return subprocess.Popen([sys.executable, "-m", "graphfx.cook.warm"], stdin=subprocess.DEVNULL,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    except OSError:
+        return None
+
+
+def draw_small() -> None:
+    """Draw a small picture with everything in it that is compiled, and leave the mark."""
+    from graphfx.render.camera import Camera
+    from graphfx.render.renderer import render
+    from graphfx.render.streaks import Streaks
+
+    head = np.random.default_rng(0).uniform(-1, 1, (3, ENOUGH)).astype(np.float32)
+    camera = Camera()
+    render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1)
+    _mark().touch()
+
+
+if __name__ == "__main__":
+    draw_small()
