@@ -15,7 +15,10 @@ from graphfx.errors import GraphfxError, Problem
 @debug
 @click.pass_context
 def command(context: click.Context, graphs: tuple[str, ...], library: tuple[str, ...]) -> None:
-    """Check graphs without cooking them: all problems, each with its place. Exits with 1 if there are any."""
+    """Tell everything that is wrong with graphs.
+
+    Nothing is cooked. Each problem has its place in the file. Exits with 1 if there are any.
+    """
     code = 0
     for graph in graphs:
         try:

@@ -19,7 +19,10 @@ from graphfx.errors import GraphfxError, UsageError
 @debug
 @click.pass_context
 def command(context: click.Context, graphs: tuple[str, ...], write: bool, check: bool, library: tuple[str, ...]) -> None:
-    """Print graphs in canonical form: keys in order, defaults left out."""
+    """Print graphs in their canonical form.
+
+    Keys in order, defaults left out; what a graph means does not change.
+    """
     if write and check:
         raise UsageError("--write changes files and --check does not; give one of them")
     code = 0

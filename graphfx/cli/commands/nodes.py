@@ -13,7 +13,10 @@ from graphfx.errors import UsageError, suggestion
 @library
 @debug
 def command(name: str | None, library: tuple[str, ...]) -> None:
-    """List the node types by kind, or describe NAME in full, with a graph that runs."""
+    """List the node types, or describe one.
+
+    With NAME: what it does, its parameters with units and ranges, and a graph that runs.
+    """
     from graphfx.cli.node_docs import describe, table
     from graphfx.node import Library, library_roots
 

@@ -14,7 +14,10 @@ from graphfx.cli.options import debug, library
 @library
 @debug
 def command(out: str | None, library: tuple[str, ...]) -> None:
-    """Print the JSON Schema of graphs: with it editors complete node types and parameters."""
+    """Print the JSON Schema of graphs.
+
+    With it editors complete and check node types and parameters.
+    """
     from graphfx.graph.schema import schema
     from graphfx.node import Library, library_roots
 
