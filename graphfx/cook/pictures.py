@@ -25,15 +25,19 @@ def camera_at(node: FlatNode, time: float, frame: int) -> Camera:
 def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> Film:
     """Return the picture of a frame."""
     time = simulation.clock.time_of(frame)
-    exposure = float(image.value("shutter", time, frame)) / simulation.clock.fps
-    opening = max(time - exposure, simulation.clock.start)
-    streams = [streaks_of(simulation.particles[path], look, time, opening) for path, look in image.streams]
+    shutter = float(image.value("shutter", time, frame))
+    opening = max(time - shutter / simulation.clock.fps, simulation.clock.start)
+    reach = shutter / simulation.plan.shutter if simulation.plan.shutter > 0 else 0.0
+    streams = [streaks_of(simulation.particles[path], look, time, opening, reach) for path, look in image.streams]
     width, height = (int(number) for number in image.value("size"))
     return render(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
 
 
-def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening: float) -> Streaks:
-    """Return the streaks of one emitter's particles over the shutter from `opening` to `time`."""
+def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening: float, reach: float = 1.0) -> Streaks:
+    """Return the streaks of one emitter's particles over the shutter from `opening` to `time`.
+
+    `reach` is the length of this shutter in those of the longest, at whose opening tails are taken.
+    """
     store = particles.store
     share = _shares(particles, time, opening)
     shown = None if share is None else np.flatnonzero(share > 0)
@@ -49,6 +53,8 @@ def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening:
     if not isinstance(head, np.ndarray):
         head = np.repeat(np.array(head, np.float32)[:, None], store.count if shown is None else len(shown), axis=1)
     tail = column("tail") if "tail" in store.columns and opening < time else None
+    if tail is not None and reach < 1.0:
+        tail = head + (tail - head) * np.float32(reach)
     return Streaks(head=head, tail=tail, head_radius=column("radius"), head_color=column("color"), head_opacity=column("opacity"),
                    share=1.0 if share is None or shown is None else share[shown].astype(np.float32), **look)
 

@@ -151,8 +151,7 @@ class Simulation:
         """Return the values of a program's uniforms over an interval."""
         substeps = self.plan.flat.time.substeps
         length = interval.length / substeps
-        shutter = max((float(image.value("shutter")) for image in self.plan.images), default=0.0)
-        opening = max(interval.length - shutter / self.plan.flat.time.fps, 0.0)
+        opening = max(interval.length - self.plan.shutter / self.plan.flat.time.fps, 0.0)
         values: dict[int, Any] = {}
         for name, uniform in made.times.items():
             if isinstance(name, tuple):

@@ -51,8 +51,8 @@ def _values_of(node: FlatNode) -> list[Value]:
     return [*node.arguments.values(), *([node.only] if node.only is not None else [])]
 
 
-def find_attributes(emitter: FlatNode, operators: list[FlatNode], drawn: set[str], motion_blur: bool) -> Attributes:
-    """Decide what is stored. `drawn` are the attributes that the renderer reads."""
+def find_attributes(emitter: FlatNode, operators: list[FlatNode], drawn: set[str], motion_blur: bool, prune: bool = True) -> Attributes:
+    """Decide what is stored. `drawn` are the attributes that the renderer reads; without `prune`, all are stored."""
     written = {name for node in operators for name in node.node_type.writes}
     if any(node.node_type.role == "surface" for node in operators):
         written |= {"position", "velocity"}
@@ -64,7 +64,12 @@ def find_attributes(emitter: FlatNode, operators: list[FlatNode], drawn: set[str
     moves = "velocity" in written or not (isinstance(moving, Literal) and not any(moving.value))
     if moves:
         readers.setdefault("velocity", "the motion")
-    return _sort_out(emitter, operators, written | ({"position"} if moves else set()), readers, motion_blur)
+    written |= {"position"} if moves else set()
+    motion_blur = motion_blur and "position" in written
+    if not prune:
+        readers |= {name: readers.get(name, "nothing") for name in ATTRIBUTES} | {"age": "nothing"}
+        written = set(ATTRIBUTES) - {"life"}
+    return _sort_out(emitter, operators, written, readers, motion_blur)
 
 
 def _sort_out(emitter: FlatNode, operators: list[FlatNode], written: set[str], readers: dict[str, str], motion_blur: bool) -> Attributes:
@@ -75,7 +80,7 @@ def _sort_out(emitter: FlatNode, operators: list[FlatNode], written: set[str], r
         return name in written or rate_of(set_value(emitter, name), scope) > Rate.CONSTANT
 
     for name, attribute in ATTRIBUTES.items():
-        if name in ("life",):
+        if name == "life":
             continue
         if name in readers and differs(name):
             found.columns[name] = "float" if attribute.type == "float" else "vec3"

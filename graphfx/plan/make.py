@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from graphfx.errors import GraphError, Problem
@@ -82,6 +83,11 @@ class Plan:
         """Return 32 or 64: the bits of a real."""
         return self.flat.time.precision
 
+    @cached_property
+    def shutter(self) -> float:
+        """Return the longest time that a shutter is open [frames]: tails are taken when it opens."""
+        return max((float(image.value("shutter")) for image in self.images), default=0.0)
+
 
 def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
     """Return a value that no particle has a part in; text and lists as they are."""
@@ -95,7 +101,7 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     nodes = flat.nodes
     images = [_image(nodes[path], schedule, flat) for path in schedule.order if nodes[path].node_type.role == "image"]
-    emitters = {path: _emitter(nodes[path], schedule, flat, images) for path in schedule.order
+    emitters = {path: _emitter(nodes[path], schedule, flat, images, prune) for path in schedule.order
                 if nodes[path].node_type.role == "emit"}
     return Plan(flat, schedule, emitters, images)
 
@@ -114,12 +120,12 @@ def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]
             if flat.nodes[name].node_type.kind == "operators" and path in schedule.upstream(name)]
 
 
-def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan]) -> EmitterPlan:
+def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan], prune: bool) -> EmitterPlan:
     operators = _operators(node.path, schedule, flat)
     movers = [mover_of(operator) for operator in operators]
     shown = [image for image in images if node.path in dict(image.streams)]
     shutter = max((float(image.value("shutter")) for image in shown), default=0.0)
-    attributes = find_attributes(node, operators, set(DRAWN), shutter > 0)
+    attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)
     method, reason = choose_method(movers, flat)
     has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
     motion = Motion(movers, method, has_velocity)

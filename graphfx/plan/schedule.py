@@ -56,7 +56,7 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
     if not outputs:
         raise GraphError(Problem("the graph has no output: give it an enabled node of type 'image'", path="nodes"))
-    needed = set(outputs).union(*(networkx.ancestors(edges, path) for path in outputs))
+    needed = set(outputs).union(*(networkx.ancestors(edges, path) for path in outputs)) if prune else set(flat.nodes)
     for path in flat.nodes:
         if path not in needed and path not in dropped:
             dropped[path] = "no output depends on it"
