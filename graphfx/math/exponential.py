@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .primitives import by_precision, floor, fma, maximum, minimum, scale2
+from .primitives import absolute, by_precision, floor, fma, maximum, minimum, scale2, where
 
 __all__ = ["exp", "exp2", "expm1"]
 
@@ -113,15 +113,15 @@ def scaled_expm1_double(x: Any, shift: float, unit: float, most: float) -> Any:
 def expm1_single(x: Any) -> Any:
     """e**x - 1, without loss near 0.
 
-    Relative error: 1.2e-7 in float32, 2.4e-16 in float64, for small x too. Infinite for x > 88.7228 (float64: 709.7827); -1 at -infinity;
-    NaN gives NaN.
+    Relative error: 1.2e-7 in float32, 2.4e-16 in float64, for small x too. Infinite for
+    x > 88.7228 (float64: 709.7827); -1 at -infinity; NaN gives NaN.
     """
-    return scaled_expm1_single(x, 1.0, 0.5, 89.0) * 2.0
+    return where(absolute(x) < 1e-8, x, scaled_expm1_single(x, 1.0, 0.5, 89.0) * 2.0)
 
 
 def expm1_double(x: Any) -> Any:
     """expm1 in float64."""
-    return scaled_expm1_double(x, 1.0, 0.5, 710.0) * 2.0
+    return where(absolute(x) < 1e-17, x, scaled_expm1_double(x, 1.0, 0.5, 710.0) * 2.0)
 
 
 expm1 = by_precision(expm1_single, expm1_double)

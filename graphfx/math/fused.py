@@ -62,7 +62,7 @@ def fma_double(a: float, b: float, c: float) -> float:
     try:
         return numerator / (ad * bd * cd)
     except OverflowError:
-        return copysign(inf, numerator)
+        return inf if numerator > 0 else -inf
 
 
 def fma_arrays(a: Any, b: Any, c: Any) -> Any:

@@ -61,8 +61,8 @@ def log2_single(x: Any) -> Any:
 
         log2 x = e + log2 m,  x = m 2**e,  sqrt(1/2) <= m < sqrt(2)
 
-    Relative error: 1.2e-7 in float32, 1.2e-16 in float64, near x = 1 and for denormal x too. Powers of two are exact. log2(0) is
-    -infinity; NaN for x < 0 and NaN.
+    Relative error: 1.2e-7 in float32, 1.2e-16 in float64, near x = 1 and for denormal x too.
+    Powers of two are exact. log2(0) is -infinity; NaN for x < 0 and NaN.
     """
     denormal = x < 1.17549435e-38
     m, e = split2(where(denormal, x * 16777216.0, x))
@@ -85,7 +85,8 @@ log2 = by_precision(log2_single, log2_double)
 def log_single(x: Any) -> Any:
     """The natural logarithm, log2(x) ln 2.
 
-    Relative error: 1.5e-7 in float32, 2.3e-16 in float64, near x = 1 and for denormal x too. log(0) is -infinity; NaN for x < 0 and NaN.
+    Relative error: 1.5e-7 in float32, 2.3e-16 in float64, near x = 1 and for denormal x too.
+    log(0) is -infinity; NaN for x < 0 and NaN.
     """
     turns = log2_single(x)
     return turns * 0.6931472
