@@ -16,6 +16,7 @@ import numpy as np
 
 from graphfx.cook import warm
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
+from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
 from graphfx.errors import UsageError
@@ -30,12 +31,17 @@ from graphfx.store.threads import available_threads
 
 @dataclass(frozen=True)
 class FrameReport:
-    """What is told of a cooked frame: particles alive, fragments drawn, particles that could not be drawn, files."""
+    """What is told of a cooked frame.
+
+    `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
+    within one step that they were brought to rest (counted since the start).
+    """
 
     frame: int
     particles: int
     fragments: int
     dropped: int
+    restless: int
     files: tuple[Path, ...]
 
 
@@ -56,11 +62,12 @@ class Effect:
         return list(range(self.flat.time.first, self.flat.time.last + 1))
 
     def cook(self, out: str | Path = ".", frames: Iterable[int] | None = None, threads: int | None = None,
-             report: Callable[[FrameReport], None] | None = None) -> list[Path]:
+             report: Callable[[FrameReport], None] | None = None, limits: CookLimits | None = None) -> list[Path]:
         """Simulate and write the images of the frames (all, unless told); return the files written.
 
-        `report` is called after each frame.
+        `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
+        check_limits(self.plan, limits or CookLimits())
         written: list[Path] = []
         for made in self._cooked(Path(out), sorted(set(frames)) if frames is not None else self.frames, threads or available_threads()):
             written += made.files
@@ -80,7 +87,8 @@ class Effect:
             films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
             files = tuple(self._write(image, film, frame, out) for image, film in films)
             yield FrameReport(frame, sum(particles.alive for particles in simulation.particles.values()),
-                              sum(film.fragments for _, film in films), sum(film.dropped for _, film in films), files)
+                              sum(film.fragments for _, film in films), sum(film.dropped for _, film in films),
+                              sum(particles.unfinished for particles in simulation.particles.values()), files)
 
     def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
         file = out / file_name(str(image.value("file")), self.flat.name, frame)

@@ -123,8 +123,8 @@ def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]
 def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan], prune: bool) -> EmitterPlan:
     operators = _operators(node.path, schedule, flat)
     movers = [mover_of(operator) for operator in operators]
-    shown = [image for image in images if node.path in dict(image.streams)]
-    shutter = max((float(image.value("shutter")) for image in shown), default=0.0)
+    shown = any(node.path in dict(image.streams) for image in images)
+    shutter = max(float(image.value("shutter")) for image in images) if shown else 0.0
     attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)
     method, reason = choose_method(movers, flat)
     has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))

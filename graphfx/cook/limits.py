@@ -1,0 +1,56 @@
+"""Refuse, before any work, what would not fit: too many particles, too large a picture."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphfx.errors import LimitError, Problem
+from graphfx.graph.values import Keys, Literal, Value
+from graphfx.plan.make import EmitterPlan, ImagePlan, Plan, plain_value
+
+
+@dataclass(frozen=True)
+class CookLimits:
+    """What a cook may take; each can be set on the command line or in Python."""
+
+    particles: int = 100_000_000
+    """Particles alive at once, of one emitter."""
+    pixels: int = 1 << 27
+    """Pixels of one picture."""
+
+
+def check_limits(plan: Plan, limits: CookLimits) -> None:
+    """Raise LimitError with everything that would pass a limit."""
+    problems = [problem for emitter in plan.emitters.values() if (problem := _too_many(emitter, plan, limits))]
+    problems += [problem for image in plan.images if (problem := _too_large(image, limits))]
+    if problems:
+        raise LimitError(problems)
+
+
+def _greatest(value: Value) -> float:
+    """Return the greatest that a value takes, as far as it can be told."""
+    if isinstance(value, Keys):
+        return max(float(plain_value(point) if isinstance(point, Value) else point) for point in value.values)
+    return float(value.value) if isinstance(value, Literal) else 0.0
+
+
+def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:
+    time = plan.flat.time
+    span = (time.last - time.first) / time.fps + time.preroll
+    life = _greatest(emitter.life) if emitter.life is not None else span
+    count = _greatest(emitter.node.arguments["rate"]) * min(span, life)
+    if count <= limits.particles:
+        return None
+    bytes_each = sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
+    return Problem(f"about {count:,.0f} particles would be alive at once, and the limit is {limits.particles:,}; "
+                   "lower the rate or the life, or allow more with --limit-particles",
+                   emitter.node.location, f"nodes.{emitter.path}",
+                   (f"they would take {count * bytes_each / 2**30:,.1f} GiB",))
+
+
+def _too_large(image: ImagePlan, limits: CookLimits) -> Problem | None:
+    width, height = (int(number) for number in image.value("size"))
+    if width * height <= limits.pixels:
+        return None
+    return Problem(f"a picture of {width} x {height} has {width * height:,} pixels, and the limit is {limits.pixels:,}; "
+                   "make it smaller, or allow more with --limit-pixels", image.node.location, f"nodes.{image.node.path}")
