@@ -156,8 +156,8 @@ def tracked_files() -> list[Path]:
     return [ROOT / name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()]
 
 
-FOREIGN = ["/wo" + "rk/", "/tm" + "p/", "/ro" + "ot/", "/ho" + "me/", "sha" + "red/", "DES" + "IGN.md", "NUM" + "ERICS.md", "RENDER" + "ING.md"]
-"""Places that exist on one machine only, each written so that this file does not hold it."""
+FOREIGN = [f"{name}/" for name in ("/work", "/tmp", "/root", "/home", "shared")] + [f"{n}.md" for n in ("DESIGN", "NUMERICS", "RENDERING")]
+"""Places that exist on one machine only, each put together so that this file does not hold it."""
 
 
 def test_files_speak_of_no_other_place() -> None:
