@@ -9,7 +9,7 @@ from pathlib import Path
 from graphfx.errors import GraphError, LimitError, Location, suggestion
 from graphfx.graph.check_graph import GraphReader
 from graphfx.graph.check_nodes import NodeReader
-from graphfx.graph.check_streams import check_references, walk
+from graphfx.graph.check_streams import check_references
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
 from graphfx.graph.document import Document, load_document
@@ -56,7 +56,6 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     around.inputs(part("inputs"))
     reader = ValueReader(checking, literals)
     values = NamedValues(checking, reader, part("values"), Scope("", "", graph.params, lambda name: None, broken=graph.broken))
-    values.read_all()
     _nodes(checking, graph, part("nodes"), NodeReader(checking, graph, reader, values))
     check_references(checking, graph)
     around.outputs(part("outputs"))
@@ -93,7 +92,7 @@ def _use(checking: Checking, graph: Graph, item: Item | None, folders: list[Path
                               f"'{name}' is a node type of the library; give the group another name")
         text = checking.text(given, path, "the path of a group")
         try:
-            used = _group(checking, find_file(text, folders), text, given.location, path, groups) if text else None
+            used = _group(checking, find_file(text, folders), text, given.location, path, groups) if given.is_text else None
         except PathRefused as refusal:
             checking.complain(given.location, path, str(refusal), *refusal.notes)
             used = None
@@ -141,11 +140,6 @@ def _nodes(checking: Checking, graph: Graph, item: Item | None, reader: NodeRead
                               f"'{name}' is an input of this group already; give the node another id")
             continue
         graph.nodes[name] = reader.entry(name, given, name, path)
-    total = sum(1 for _ in walk(graph))
-    if total > checking.limits.nodes:
-        checking.complain(item.location, "nodes",
-                          f"the graph has {total:,} nodes, more than the limit of {checking.limits.nodes:,}; "
-                          "raise the limit on nodes if that is meant")
 
 
 def starting_from(document: Document) -> Groups:

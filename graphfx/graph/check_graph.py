@@ -7,7 +7,7 @@ from typing import Any
 
 from graphfx.errors import suggestion
 from graphfx.graph.check_streams import check_stream
-from graphfx.graph.checking import Checking
+from graphfx.graph.checking import Checking, listed, nearest
 from graphfx.graph.flat import TimeSettings
 from graphfx.graph.items import Item, shown
 from graphfx.graph.literals import Literals, lane
@@ -189,7 +189,7 @@ class GraphReader:
         entry = entries.get(place)
         if entry is None:
             self.complain(item.location, path, f"'{text}' should be \"node.parameter\", and there is no node '{place}'."
-                          + suggestion(place, entries), f"nodes: {', '.join(entries) or 'none'}")
+                          + nearest(place, entries), f"nodes: {listed(entries)}")
             return
         parameters = _exposable(entry)
         if name not in parameters:

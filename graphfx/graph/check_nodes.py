@@ -50,7 +50,6 @@ class NodeReader:
         values = self.values
         if "values" in item.value and "values" in keys_of(entry.role, entry.kind):
             values = NamedValues(self.checking, self.reader, item.value["values"], self.scope(entry, item), self.values)
-            values.read_all()
         self._arguments(entry, item, values)
         if "set" in keys_of(entry.role, entry.kind):
             AttributeReader(self.checking, self.reader).read(entry, item.value.get("set"), self.scope(entry, item, values))
@@ -65,7 +64,7 @@ class NodeReader:
         qualifiers = {"birth"} if entry.kind in ("operators", "selectors", "group") else set()
         if "when" in item.value and item.value["when"].value == "hit":
             qualifiers.add("hit")
-        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.names, uniform, frozenset(qualifiers),
+        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.scope.names, uniform, frozenset(qualifiers),
                      self.graph.broken)
 
     def _type(self, entry: Entry, item: Item, inside: bool) -> bool:
@@ -139,7 +138,7 @@ class NodeReader:
 
     def _common(self, entry: Entry, item: Item) -> None:
         scope = self.scope(entry, item)
-        settled = replace(scope, uniform=_SETTLED, settled=True, names=frozenset())
+        settled = replace(scope, uniform=_SETTLED, settled=True, names=())
         keys = keys_of(entry.role, entry.kind)
         if "doc" in item.value:
             self.checking.text(item.value["doc"], f"{entry.path}.doc", "doc")

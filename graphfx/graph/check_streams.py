@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphfx.errors import Location, suggestion
-from graphfx.graph.checking import Checking, declared
+from graphfx.graph.checking import Checking, declared, listed, nearest
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry, Graph, StreamReference
 from graphfx.graph.names import LOOKS
@@ -108,8 +108,8 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
     node = graph.nodes.get(name)
     if node is None:
         makers = [*graph.inputs, *(known for known, entry in graph.nodes.items() if entry.streams)]
-        checking.complain(reference.location, path, f"there is no node '{name}'." + suggestion(name, makers),
-                          f"nodes that make a stream: {', '.join(makers) or 'none'}")
+        checking.complain(reference.location, path, f"there is no node '{name}'." + nearest(name, makers),
+                          f"nodes that make a stream: {listed(makers)}")
         return False
     if not node.role or (node.group and not node.group.sound):
         return False
@@ -117,7 +117,7 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
         makers = [known for known, entry in graph.nodes.items() if entry.streams]
         checking.complain(reference.location, path,
                           f"'{name}' is a node of type {node.type_name}, which makes no stream of particles",
-                          f"nodes that make a stream: {', '.join(makers) or 'none'}")
+                          f"nodes that make a stream: {listed(makers)}")
         return False
     ports = [port for port in node.streams if port]
     if reference.port and reference.port not in ports:
@@ -159,10 +159,10 @@ def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Param
 
     wanted = " or ".join(parameter.choices) or {"node": "node", "mesh": "geometry"}.get(parameter.type, parameter.type)
     known = [name for name, node in graph.nodes.items() if fits(node)]
-    note = f"nodes that fit: {', '.join(known) or 'none'}"
+    note = f"nodes that fit: {listed(known)}"
     node = graph.nodes.get(target)
     if node is None:
-        checking.complain(location, path, f"there is no node '{target}'." + suggestion(target, known), note,
+        checking.complain(location, path, f"there is no node '{target}'." + nearest(target, known), note,
                           declared(entry.node_type) if entry.node_type and not known else "")
     elif node.role and not fits(node):
         checking.complain(location, path,
@@ -184,26 +184,23 @@ def streams_of(entry: Entry) -> Iterator[StreamReference]:
 
 
 def _check_circles(checking: Checking, graph: Graph) -> None:
-    """Complain of each circle of nodes that take from one another, once, with its names."""
+    """Put the nodes in order, sources first; complain of each circle of nodes that take from one another, with its names."""
     done: set[str] = set()
     for start in graph.nodes:
-        trail: list[str] = []
-        waiting: list[Iterator[tuple[str, StreamReference]]] = []
-
-        def enter(name: str, trail: list[str] = trail, waiting: list[Iterator[tuple[str, StreamReference]]] = waiting) -> None:
-            trail.append(name)
-            waiting.append(iter([(reference.node, reference) for reference in streams_of(graph.nodes[name])]))
-
+        trail: dict[str, Iterator[StreamReference]] = {}
         if start not in done:
-            enter(start)
-        while waiting:
-            name, reference = next(waiting[-1], ("", StreamReference("")))
-            if not name:
-                waiting.pop()
-                done.add(trail.pop())
-            elif name in trail:
-                circle = " -> ".join([*trail[trail.index(name):], name][::-1])
+            trail[start] = streams_of(graph.nodes[start])
+        while trail:
+            last = next(reversed(trail))
+            reference = next(trail[last], None)
+            if reference is None:
+                del trail[last]
+                done.add(last)
+                graph.order.append(last)
+            elif reference.node in trail:
+                names = list(trail)
+                circle = " -> ".join([*names[names.index(reference.node):], reference.node][::-1])
                 checking.complain(reference.location, reference.path, f"these nodes take from one another in a circle: {circle}; "
                                   "particles must come from an emitter; break it at one of them")
-            elif name in graph.nodes and name not in done:
-                enter(name)
+            elif reference.node in graph.nodes and reference.node not in done:
+                trail[reference.node] = streams_of(graph.nodes[reference.node])

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphfx.errors import suggestion
-from graphfx.graph.checking import Checking, declared, number, takes
+from graphfx.graph.checking import Checking, declared, listed, nearest, number, takes
 from graphfx.graph.expressions import parse
 from graphfx.graph.items import Item
 from graphfx.graph.literals import Literals, lane, wanted
@@ -130,9 +130,9 @@ class ValueReader:
         if parameter is None and f"params.{text}" in scope.broken:
             return None
         if parameter is None:
-            near = suggestion(text, scope.params)
+            near = nearest(text, scope.params)
             self.complain(inner.location, f"{path}.param", f"the graph has no parameter '{text}'." + near,
-                          f"its parameters: {', '.join(scope.params) or 'none'}")
+                          f"its parameters: {listed(scope.params)}")
             return None
         if not self._fits(inner, path, parameter.type, want, f"the parameter '{text}'"):
             return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 
 from graphfx.errors import Location, NodeError, Problem, suggestion
@@ -12,6 +13,9 @@ from graphfx.graph.items import Item, shown
 from graphfx.graph.limits import Limits
 from graphfx.graph.names import WORD
 from graphfx.node import OTHER_NAMES, Library, NodeType, Parameter
+
+_MOST_PROBLEMS = 1000
+"""So many problems are told at once, and no more."""
 
 
 @dataclass
@@ -85,6 +89,18 @@ def not_one_of(item: Item, name: str, choices: Sequence[str]) -> str:
     return f"{name} should be one of {', '.join(choices)}, not {stands}" + (f".{near}" if near else "")
 
 
+def listed(names: Iterable[str], most: int = 20) -> str:
+    """Return names with commas, 'none' where there are none, and not too many."""
+    names = list(names)
+    shown_names = names[:most] + ([f"and {len(names) - most:,} more"] if len(names) > most else [])
+    return ", ".join(shown_names) or "none"
+
+
+def nearest(wrong: str, known: Iterable[str], most: int = 2000) -> str:
+    """Return the suggestion among names that a document gives, of which there may be very many."""
+    return suggestion(wrong[:100], list(islice(known, most)))
+
+
 def counted(count: int, word: str) -> str:
     """Return "1 input" or "2 inputs"."""
     return f"{count} {word}{'s' * (count != 1)}"
@@ -116,5 +132,5 @@ def number(value: float) -> str:
 
 def in_order(problems: list[Problem], file: str) -> list[Problem]:
     """Return problems without repeats, those of the document itself first, by place."""
-    unique = list(dict.fromkeys(problems))
+    unique = list(dict.fromkeys(problems))[:_MOST_PROBLEMS]
     return sorted(unique, key=lambda problem: (problem.location.file != file, problem.location))

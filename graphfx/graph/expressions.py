@@ -14,13 +14,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from itertools import groupby
 from typing import Any, NoReturn
 
 from graphfx.errors import suggestion
-from graphfx.graph.functions import ANY_NUMBER, BINARY, CALLED, CONSTANTS, FUNCTIONS
+from graphfx.graph.functions import ANY_NUMBER, BINARY, CALLED, CONSTANTS, FUNCTIONS, in_words
 from graphfx.graph.items import shown
 from graphfx.graph.limits import Limits
 from graphfx.graph.values import Call, measure
@@ -65,6 +64,14 @@ def parse(text: str, resolve: Resolve, limits: Limits | None = None) -> tuple[An
     except _Stop:
         tree, kind = None, ""
     return tree, kind, parser.mistakes
+
+
+def names_in(text: str) -> Iterator[str]:
+    """Yield the names that an expression reads and that stand by themselves: no functions, nothing before or after a dot."""
+    tokens = [token.group(token.lastgroup or 0) for token in _TOKEN.finditer(text)]
+    for before, word, after in zip(["", *tokens], tokens, [*tokens[1:], ""], strict=False):
+        if before != "." and after != "(" and (after != "." or word not in QUALIFIERS) and word.isidentifier():
+            yield word
 
 
 class _Parser:
@@ -124,8 +131,8 @@ class _Parser:
         kinds = tuple(kind for _, kind in arguments)
         result = function.result(kinds)
         if result is None:
-            takes = ", or ".join(_listed(types) for types, _ in function.forms)
-            self.note(f"{spelled or name} takes {takes}; here it is given {_listed(kinds)}", column)
+            takes = ", or ".join(in_words(types) for types, _ in function.forms)
+            self.note(f"{spelled or name} takes {takes}; here it is given {in_words(kinds)}", column)
         elif "" in kinds and len({outcome for _, outcome in function.forms}) > 1:
             result = ""
         call = Call(name, tuple(tree for tree, _ in arguments))
@@ -287,11 +294,3 @@ class _Parser:
             self.note(f"{word} is called as {spelling}, but has {count} here", column)
             return None, ""
         return self.call(name, tuple(arguments), column, word)
-
-
-def _listed(kinds: tuple[str, ...]) -> str:
-    words = {"float": "number", "vec3": "vector", "bool": "condition", "": "unknown"}
-    counts = {2: "two", 3: "three"}
-    parts = [(words[kind], len(list(run))) for kind, run in groupby(kinds)]
-    named = [f"a {word}" if count == 1 else f"{counts.get(count, count)} {word}s" for word, count in parts]
-    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"

@@ -7,8 +7,8 @@ its own preview, and is left out where the group is used.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -20,12 +20,13 @@ from graphfx.graph.checking import Checking, in_order
 from graphfx.graph.document import Document, load_document
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.limits import Limits
-from graphfx.graph.model import Entry, Graph, StreamReference
+from graphfx.graph.model import Entry, Graph
 from graphfx.graph.names import REFERENCE_TYPES
 from graphfx.graph.overrides import override
 from graphfx.graph.scope import particle_reader
 from graphfx.graph.substitute import Substitution, both, overlap
 from graphfx.graph.values import Literal, Value
+from graphfx.graph.wiring import Instance, Wiring
 from graphfx.node import ATTRIBUTES, Library, Parameter
 
 
@@ -42,18 +43,6 @@ class Gate:
         return Gate(self.enabled and other.enabled, both(other.only, self.only), overlap(other.during, self.during))
 
 
-@dataclass
-class Instance:
-    """One use of a graph: the whole effect, or a group at one place. `inputs` are the paths of the streams it takes."""
-
-    graph: Graph
-    prefix: str
-    substitution: Substitution
-    gate: Gate = field(default_factory=Gate)
-    inputs: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    groups: dict[str, Instance] = field(default_factory=dict)
-
-
 class Flattener:
     """Makes the nodes of one flat graph."""
 
@@ -62,25 +51,23 @@ class Flattener:
         self.checking = checking
         self.nodes: dict[str, FlatNode] = {}
 
-    def flatten(self, instance: Instance) -> None:
+    def flatten(self, instance: Instance, outer: Gate) -> None:
         """Add the nodes of an instance, in the order of its document."""
         for entry in instance.graph.nodes.values():
-            gate = self._gate(instance, entry).within(instance.gate)
-            if entry.group is not None:
-                self.flatten(self._group(instance, entry, gate, self._inputs(instance, entry)))
-            elif entry.role == "stack":
-                for op, sources in self._chain(instance, entry):
-                    inner = self._gate(instance, op).within(gate)
-                    if op.group is not None:
-                        self.flatten(self._group(instance, op, inner, {next(iter(op.group.inputs)): sources}))
-                    else:
-                        self._add(instance, op, inner, sources)
-            elif not (instance.prefix and entry.role == "image"):
-                sources, looks = self._sources(instance, entry)
-                self._add(instance, entry, gate, sources, looks)
+            gate = self._gate(instance, entry).within(outer)
+            if entry.role == "stack":
+                for op in entry.ops:
+                    self._one(instance, op, self._gate(instance, op).within(gate))
+            else:
+                self._one(instance, entry, gate)
 
-    def _add(self, instance: Instance, entry: Entry, gate: Gate, sources: tuple[str, ...],
-             looks: tuple[dict[str, object], ...] = ()) -> None:
+    def _one(self, instance: Instance, entry: Entry, gate: Gate) -> None:
+        if entry.group is not None:
+            self.flatten(instance.groups[entry.place], gate)
+        elif not (instance.prefix and entry.role == "image"):
+            self._add(instance, entry, gate)
+
+    def _add(self, instance: Instance, entry: Entry, gate: Gate) -> None:
         if len(self.nodes) >= self.checking.limits.nodes:
             raise LimitError(Problem(f"the flattened graph has more than {self.checking.limits.nodes:,} nodes, the limit; "
                                      "raise the limit on nodes if that is meant", entry.location, entry.path))
@@ -99,10 +86,11 @@ class Flattener:
         sets = {name: instance.substitution.value(value, _attribute(name)) for name, value in entry.sets.items()}
         references = {name: instance.prefix + target for name, (target, _) in entry.references.items()}
         makes = entry.kind in ("emitters", "operators")
-        self.nodes[instance.prefix + entry.place] = FlatNode(
-            instance.prefix + entry.place, node_type, sources, arguments, sets, references,
-            gate.only if entry.kind == "operators" else None, gate.during if makes else None, entry.when, gate.enabled, looks,
-            entry.location, frozenset(entry.arguments))
+        path = instance.prefix + entry.place
+        self.nodes[path] = FlatNode(
+            path, node_type, instance.sources[entry.place], arguments, sets, references,
+            gate.only if entry.kind == "operators" else None, gate.during if makes else None, entry.when, gate.enabled,
+            instance.looks.get(entry.place, ()), entry.location, frozenset(entry.arguments))
 
     def _uniform(self, entry: Entry, parameter: Parameter, value: Value, given: Value) -> None:
         """Complain of a value that varies by particle where a parameter brought it to a place that cannot."""
@@ -140,62 +128,6 @@ class Flattener:
                                    f"the interval ends at {known.value[1]}, before its start at {known.value[0]}")
         return known.value
 
-    def _group(self, outer: Instance, entry: Entry, gate: Gate, inputs: dict[str, tuple[str, ...]]) -> Instance:
-        """Return the instance of a group at one place, made once."""
-        prefix = f"{outer.prefix}{entry.place}/"
-        known = outer.groups.get(entry.place)
-        if known is not None:
-            known.gate = gate
-            return known
-        group = entry.group
-        assert group is not None
-        given: dict[str, Value] = {}
-        for name, parameter in group.params.items():
-            argument = entry.arguments.get(name)
-            given[name] = (outer.substitution.value(argument, parameter) if argument is not None
-                           else default_value(parameter, f"{entry.path}.{name}"))
-        seed = outer.substitution.seed(entry.seed) + "/"
-        instance = Instance(group, prefix, Substitution(self.checking, given, seed), gate, inputs)
-        outer.groups[entry.place] = instance
-        return instance
-
-    def _chain(self, instance: Instance, stack: Entry) -> Iterator[tuple[Entry, tuple[str, ...]]]:
-        """Yield the operators of a stack with the paths that each takes its stream from."""
-        sources, _ = self._sources(instance, stack)
-        for op in stack.ops:
-            yield op, sources
-            sources = self._op_ends(instance, op, sources)
-
-    def _op_ends(self, instance: Instance, op: Entry, sources: tuple[str, ...]) -> tuple[str, ...]:
-        if op.group is None:
-            return (instance.prefix + op.place,)
-        inner = self._group(instance, op, Gate(), {next(iter(op.group.inputs)): sources})
-        return self._ends(inner, next(iter(op.group.outputs.values())))
-
-    def _inputs(self, instance: Instance, entry: Entry) -> dict[str, tuple[str, ...]]:
-        return {name: tuple(path for reference in references for path in self._ends(instance, reference))
-                for name, references in entry.inputs.items()}
-
-    def _sources(self, instance: Instance, entry: Entry) -> tuple[tuple[str, ...], tuple[dict[str, object], ...]]:
-        pairs = [(path, reference.looks) for reference in entry.sources for path in self._ends(instance, reference)]
-        looks = tuple(look for _, look in pairs) if entry.role == "image" else ()
-        return tuple(path for path, _ in pairs), looks
-
-    def _ends(self, instance: Instance, reference: StreamReference) -> tuple[str, ...]:
-        """Return the paths of the nodes at whose end a stream stands."""
-        if reference.node in instance.inputs:
-            return instance.inputs[reference.node]
-        entry = instance.graph.nodes[reference.node]
-        if entry.group is not None:
-            inner = self._group(instance, entry, Gate(), self._inputs(instance, entry))
-            return self._ends(inner, entry.group.outputs[reference.port or next(iter(entry.group.outputs))])
-        if entry.role != "stack":
-            return (instance.prefix + entry.place,)
-        ends, _ = self._sources(instance, entry)
-        for op in entry.ops:
-            ends = self._op_ends(instance, op, ends)
-        return ends
-
 
 def _attribute(name: str) -> Parameter:
     attribute = ATTRIBUTES[name]
@@ -212,10 +144,7 @@ def _whole(graph: Graph, checking: Checking, overrides: Mapping[str, Any] | None
     if checking.problems:
         return {}
     flattener = Flattener(checking)
-    try:
-        flattener.flatten(Instance(graph, "", Substitution(checking, given)))
-    except LimitError as error:
-        checking.problems.extend(error.problems)
+    flattener.flatten(Wiring(checking).instance(graph, "", Substitution(checking, given), {}), Gate())
     return flattener.nodes
 
 
@@ -224,7 +153,10 @@ def check_flat(graph: Graph, checking: Checking) -> list[Problem]:
     if graph.inputs or any(parameter.required for parameter in graph.params.values()):
         return []
     inner = Checking(checking.library, checking.limits)
-    _whole(graph, inner)
+    try:
+        _whole(graph, inner)
+    except LimitError as error:
+        inner.problems.extend(error.problems)
     return inner.problems
 
 
@@ -232,7 +164,8 @@ def flatten(source: str | Path | Document, library: Library, overrides: Mapping[
             limits: Limits | None = None) -> FlatGraph:
     """Return the flat graph of a document; `overrides` replace parameters, as `--set name=value` does.
 
-    Raise `GraphError` with all problems of the document, of the groups that it uses, and of the overrides.
+    Raise `GraphError` with all problems of the document, of the groups that it uses, and of the overrides;
+    `LimitError` where it flattens to too many nodes.
     """
     document = source if isinstance(source, Document) else load_document(source, limits)
     checking = Checking(library, document.limits)

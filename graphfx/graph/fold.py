@@ -34,6 +34,7 @@ _NUMBERS: dict[str, Callable[..., Any]] = {
     "max": lambda a, b: a if a > b else b,
     "clamp": lambda x, low, high: min(max(x, low), high),
     "vec": lambda x, y, z: (x, y, z),
+    "interval": lambda start, end: (start, end),
     "component_x": lambda v: v[0],
     "component_y": lambda v: v[1],
     "component_z": lambda v: v[2],

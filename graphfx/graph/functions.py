@@ -7,6 +7,7 @@ serves numbers and vectors; the types of the arguments say which is meant.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 
 
 @dataclass(frozen=True)
@@ -104,3 +105,12 @@ CONSTANTS = {
     "pi": 3.141592653589793, "tau": 6.283185307179586, "infinity": float("inf"), "true": True, "false": False,
 }
 """Names that stand for one value everywhere."""
+
+
+def in_words(kinds: tuple[str, ...]) -> str:
+    """Return types of arguments as a message names them: "a vector and two numbers"."""
+    words = {"float": "number", "vec3": "vector", "bool": "condition", "": "unknown"}
+    counts = {2: "two", 3: "three"}
+    parts = [(words[kind], len(list(run))) for kind, run in groupby(kinds)]
+    named = [f"a {word}" if count == 1 else f"{counts.get(count, count)} {word}s" for word, count in parts]
+    return named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from graphfx.errors import UsageError
 
-DEEPEST = 200
+DEEPEST = 100
 """No document may nest deeper, whatever the limit asked for: reading recurses."""
 
 

@@ -159,10 +159,11 @@ def _list(item: Item, want: Parameter) -> tuple[Any, str]:
         if not (part.is_number or part.is_text):
             return None, f"{want.name} holds numbers or texts, but entry {index} is {part.words}"
         whole = index < len(like) and type(like[index]) is int
-        if (like and isinstance(like[index], str) != part.is_text) or (whole and type(part.value) is not int):
+        if (like and isinstance(like[index], str) != part.is_text) or (whole and not float(part.value).is_integer()):
             kind = "text in quotes" if isinstance(like[index], str) else "a whole number" if whole else "a number"
             return None, f"entry {index} of {want.name} should be {kind}, not {part.words}"
-    return tuple(part.value for part in item.value), ""
+    parts = (part.value for part in item.value)
+    return tuple(int(part) if isinstance(part, float) and part.is_integer() else part for part in parts), ""
 
 
 def _unlike(want: Parameter, item: Item) -> str:

@@ -96,6 +96,8 @@ class Graph:
     inputs: dict[str, str] = field(default_factory=dict)
     outputs: dict[str, StreamReference] = field(default_factory=dict)
     nodes: dict[str, Entry] = field(default_factory=dict)
+    order: list[str] = field(default_factory=list)
+    """The nodes, each after those whose streams it takes."""
     digest: str = ""
     sound: bool = True
     """Whether nothing is wrong with it, nor with the groups that it uses."""

@@ -1,10 +1,12 @@
-"""Named values: `"values": {"gusty": {...}}` on a graph or an emitter, read when first referred to."""
+"""Named values: `"values": {"gusty": {...}}` on a graph or an emitter, each after those that it refers to."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
-from graphfx.graph.expressions import KEYWORDS, QUALIFIERS
+from graphfx.graph.expressions import KEYWORDS, QUALIFIERS, names_in
 from graphfx.graph.functions import CALLED, CONSTANTS
 from graphfx.graph.items import Item
 from graphfx.graph.names import WORD
@@ -24,7 +26,6 @@ class NamedValues:
         self.checking, self.reader, self.outer = checking, reader, outer
         self.items: dict[str, Item] = {}
         self.known: dict[str, Value | None] = {}
-        self.asking: list[str] = []
         path = f"{scope.path}.values" if scope.path else "values"
         if item is not None and not item.is_object:
             checking.mismatch(item, path, "\"values\" should be an object of named values")
@@ -35,32 +36,49 @@ class NamedValues:
                                   f"a value cannot be called '{name}', which {why}; choose another name")
             else:
                 self.items[name] = given
-        names = frozenset(self.items) | (outer.names if outer else frozenset())
-        self.scope = Scope(scope.path, scope.seed, scope.params, self.get, names, broken=scope.broken)
-
-    @property
-    def names(self) -> frozenset[str]:
-        """Return all names in reach."""
-        return self.scope.names
+        names = dict.fromkeys([*self.items, *(outer.scope.names if outer else ())])
+        self.scope: Scope = Scope(scope.path, scope.seed, scope.params, self.get, names, broken=scope.broken)
+        self.path = path
+        for name in self._order():
+            self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), self.scope, f"values.{name}")
 
     def get(self, name: str) -> Value | None:
         """Return a named value, or None where it is wrong, which has been told."""
-        if name not in self.items:
-            return self.outer.get(name) if self.outer else None
-        if name in self.asking:
-            cycle = " -> ".join([*self.asking[self.asking.index(name):], name])
-            item = self.items[name]
-            path = f"{self.scope.path}.values.{name}" if self.scope.path else f"values.{name}"
-            self.checking.complain(item.location, path,
-                                   f"these values refer to one another in a circle: {cycle}; break it at one of them")
-            return None
-        if name not in self.known:
-            self.asking.append(name)
-            self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), self.scope, f"values.{name}")
-            self.asking.pop()
-        return self.known[name]
+        if name in self.items or self.outer is None:
+            return self.known.get(name)
+        return self.outer.get(name)
 
-    def read_all(self) -> None:
-        """Read also those that nothing refers to, so that their mistakes are told."""
-        for name in self.items:
-            self.get(name)
+    def _order(self) -> list[str]:
+        """Return the names, each after those that its expressions read; complain of circles and leave them out."""
+        order: dict[str, None] = {}
+        for start in self.items:
+            trail = {start: iter(self._reads(start))} if start not in order else {}
+            while trail:
+                name = next(reversed(trail))
+                read = next(trail[name], None)
+                if read is None:
+                    del trail[name]
+                    order[name] = None
+                elif read in trail:
+                    self._circle(list(trail), read)
+                elif read not in order:
+                    trail[read] = iter(self._reads(read))
+        return list(order)
+
+    def _circle(self, trail: list[str], name: str) -> None:
+        circle = " -> ".join([*trail[trail.index(name):], name])
+        self.checking.complain(self.items[name].location, f"{self.path}.{name}",
+                               f"these values refer to one another in a circle: {circle}; break it at one of them")
+
+    def _reads(self, name: str) -> list[str]:
+        return [word for text in _expressions(self.items[name]) for word in names_in(text) if word in self.items]
+
+
+def _expressions(item: Item) -> Iterator[str]:
+    """Yield the texts of all expressions in a value."""
+    parts = list(item.value.values()) if isinstance(item.value, dict) else item.value if isinstance(item.value, list) else []
+    for key, part in item.entries():
+        if key in ("expr", "over") and part.is_text:
+            yield part.value
+    for part in parts:
+        yield from _expressions(part)

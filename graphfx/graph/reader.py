@@ -130,8 +130,9 @@ class _Reader(Tokens):
     def enter(self) -> int:
         self.depth += 1
         if self.depth > self.limits.depth:
-            self.fail(f"objects and lists nest deeper than the limit of {self.limits.depth}; "
-                      "use groups, or raise the limit on depth")
+            message = (f"objects and lists nest deeper than the limit of {self.limits.depth}; "
+                       "use groups, or raise the limit on depth")
+            raise LimitError([*self.problems, Problem(message, self.source.location(self.at))])
         start = self.at
         self.at += 1
         return start

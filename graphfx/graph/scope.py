@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 from graphfx.errors import suggestion
+from graphfx.graph.checking import listed, nearest
 from graphfx.graph.functions import CONSTANTS
 from graphfx.graph.literals import lane
 from graphfx.graph.values import Expression, Name, Node, ParameterValue, Random, Value, children
@@ -14,6 +16,7 @@ from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Parameter
 
 READABLE = ATTRIBUTES | DERIVED_ATTRIBUTES
 ALWAYS = {"time": "float", "frame": "float"}
+_MOST_NAMES = 2000
 _HIT = {"normal": "vec3", "point": "vec3", "speed": "float"}
 _ELSEWHERE = {
     "birth": "an emitter's values are made at birth; birth.x is for operators",
@@ -30,7 +33,7 @@ class Scope:
     seed: str
     params: dict[str, Parameter]
     named: Callable[[str], Value | None]
-    names: frozenset[str] = frozenset()
+    names: Collection[str] = ()
     uniform: str = ""
     qualifiers: frozenset[str] = frozenset()
     broken: frozenset[str] | set[str] = frozenset()
@@ -57,7 +60,8 @@ class Scope:
             return f"there is no name '{word}'. Did you mean 'param.{word}'?"
         if word in ("param", "birth", "parent", "hit"):
             return f"'{word}' needs a name after it, as in {word}.{next(iter(self.params), 'x')}"
-        known = [*self.names, *READABLE, *ALWAYS, *CONSTANTS, *(f"param.{name}" for name in self.params)]
+        params = [f"param.{name}" for name in islice(self.params, _MOST_NAMES)]
+        known = [*islice(self.names, _MOST_NAMES), *READABLE, *ALWAYS, *CONSTANTS, *params]
         return f"there is no name '{word}'." + suggestion(word, known, OTHER_NAMES)
 
     def _parameter(self, rest: str) -> tuple[Any, str] | str:
@@ -66,8 +70,8 @@ class Scope:
         if parameter is None and f"params.{name}" in self.broken:
             return None, ""
         if parameter is None:
-            known = ", ".join(self.params) or "none"
-            return f"the graph has no parameter '{name}'." + suggestion(name, self.params) + f" Its parameters: {known}"
+            near = nearest(name, self.params)
+            return f"the graph has no parameter '{name}'.{near} Its parameters: {listed(self.params)}"
         kind = lane(parameter.type)
         if kind == "interval":
             if component not in ("start", "end"):

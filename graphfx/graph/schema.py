@@ -1,0 +1,244 @@
+"""A JSON Schema (2020-12) of the language with a library's node types: editors complete and check by it.
+
+It knows types, parameters, ranges, units and docs. What needs a reader (references, expressions, groups)
+is for `check`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphfx.graph.literals import VECTORS, lane
+from graphfx.graph.names import (
+    ID,
+    INTERPOLATIONS,
+    LOOKS,
+    METHODS,
+    PARAM_TYPES,
+    REFERENCE_TYPES,
+    REPEATS,
+    SCOPES,
+    WHEN,
+    WHEN_ROLES,
+    WORD,
+    keys_of,
+)
+from graphfx.node import ATTRIBUTES, Library, NodeType, Parameter
+
+Schema = dict[str, Any]
+_NODE_KINDS = ("emitters", "selectors", "operators", "renders", "geometry")
+_TEXT: Schema = {"type": "string"}
+_NUMBER: Schema = {"type": "number"}
+_ENDLESS: Schema = {"enum": ["infinity", "-infinity"]}
+_VECTOR: Schema = {"type": "array", "prefixItems": [_NUMBER] * 3, "minItems": 3, "maxItems": 3}
+_INTERVAL: Schema = {"type": "array", "prefixItems": [_NUMBER] * 2, "minItems": 2, "maxItems": 2}
+_HEX = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$"
+
+
+def schema(library: Library) -> Schema:
+    """Return the schema of graphs over the node types of a library."""
+    types = [library[name] for name in sorted(library)]
+    nodes = [node_type for node_type in types if node_type.kind in _NODE_KINDS]
+    operators = [node_type for node_type in nodes if node_type.kind == "operators" and node_type.role != "stack"]
+    definitions: Schema = {
+        "node": _choice(nodes, "A node, or an instance of a group.", "id"),
+        "operator": _choice(operators, "An operator of a stack, or a group with one stream in and one out.", "from"),
+        "stream": {"type": "string", "pattern": r"^[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z_][A-Za-z0-9_-]*)?$",
+                   "description": "The id of a node that makes a stream, or id.output of a group."},
+        "attributes": _closed({name: _place(_of_attribute(name)) for name in ATTRIBUTES}),
+        "any_value": {"anyOf": [{"$ref": f"#/$defs/{kind}_value"} for kind in ("float", "vec3", "bool")] + [
+            _NUMBER, _VECTOR, {"type": "string", "pattern": _HEX}, {"type": "boolean"}]},
+        "parameter": _parameter_declaration(),
+    }
+    values = [node_type for node_type in types if node_type.kind == "values"]
+    for kind in ("float", "vec3", "bool"):
+        fitting = [node_type for node_type in values if node_type.result and lane(node_type.result[0]) == kind]
+        definitions[f"{kind}_value"] = _values(kind, fitting)
+    for node_type in nodes:
+        definitions[f"type_{node_type.name}"] = _type(node_type)
+    for node_type in values:
+        definitions[f"value_{node_type.name}"] = _arguments(node_type)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "A graphfx graph", **_top(), "$defs": definitions}
+
+
+def _closed(properties: Schema, required: tuple[str, ...] = (), description: str = "") -> Schema:
+    """Return the schema of an object with these keys, and any that begin with `x-`."""
+    result: Schema = {"type": "object", "properties": properties, "patternProperties": {"^x-": True}}
+    if required:
+        result["required"] = list(required)
+    return result | {"additionalProperties": False} | ({"description": description} if description else {})
+
+
+def _map(entries: Schema, pattern: str, description: str) -> Schema:
+    return {"type": "object", "patternProperties": {"^x-": True, f"^(?!x-){pattern}$": entries}, "additionalProperties": False,
+            "description": description}
+
+
+def _top() -> Schema:
+    identifier, word = ID.pattern, WORD.pattern
+    time = _closed({
+        "fps": {"type": "number", "exclusiveMinimum": 0, "default": 24, "description": "Frames per second."},
+        "frames": {"type": "array", "prefixItems": [{"type": "integer"}] * 2, "minItems": 2, "maxItems": 2,
+                   "description": "First and last frame."},
+        "preroll": {"type": "number", "minimum": 0, "default": 0, "description": "Seconds simulated before the first frame."},
+        "substeps": {"type": "integer", "minimum": 1, "default": 1, "description": "Steps of a frame."},
+        "method": {"enum": list(METHODS), "default": "auto", "description": "How motion is computed."},
+        "tolerance": {"type": "number", "exclusiveMinimum": 0, "default": 1e-3, "description": "Error of a position [m]."},
+        "precision": {"enum": [32, 64], "default": 32, "description": "Bits of a number."},
+    }, description="The clock.")
+    properties: Schema = {
+        "$schema": _TEXT,
+        "graphfx": {"const": 1, "description": "The version of the language."},
+        "doc": _TEXT,
+        "seed": {"type": "integer", "minimum": 0, "default": 0, "description": "Seed of all random numbers."},
+        "time": time,
+        "use": _map(_TEXT, identifier, "Groups: a name for each, and the path of its file."),
+        "params": _map({"$ref": "#/$defs/parameter"}, word, "Parameters of the graph."),
+        "values": _map({"$ref": "#/$defs/any_value"}, word, "Named values, for expressions."),
+        "inputs": _map(_closed({"doc": _TEXT}), identifier, "Streams that a group takes."),
+        "outputs": _map({"$ref": "#/$defs/stream"}, identifier, "Streams that a group gives."),
+        "expose": {"type": "array", "items": _TEXT, "description": "Parameters of inner nodes to pass up: node.parameter."},
+        "nodes": _map({"$ref": "#/$defs/node"}, identifier, "Nodes by id."),
+    }
+    return _closed(properties, ("graphfx", "nodes"))
+
+
+def _parameter_declaration() -> Schema:
+    return _closed({
+        "type": {"enum": list(PARAM_TYPES)}, "default": True, "min": _NUMBER, "max": _NUMBER, "unit": _TEXT, "doc": _TEXT,
+    }, ("type",), "A parameter that the graph declares.")
+
+
+def _choice(types: list[NodeType], description: str, without: str) -> Schema:
+    """Return a schema that follows a node's `type`; types that it does not know are groups."""
+    names = [node_type.name for node_type in types]
+    known = [{"const": node_type.name, "description": _summary(node_type)} for node_type in types]
+    group = {"type": "string", "not": {"enum": names}, "description": "A group, named under \"use\"."}
+    return {
+        "type": "object", "required": ["type"], "description": description,
+        "properties": {"type": {"anyOf": [*known, group]}, without: False},
+        "allOf": [{"if": {"properties": {"type": {"const": name}}, "required": ["type"]},
+                   "then": {"$ref": f"#/$defs/type_{name}"}} for name in names],
+    }
+
+
+def _type(node_type: NodeType) -> Schema:
+    keys = keys_of(node_type.role, node_type.kind)
+    common = {key: part for key, part in _common(node_type).items() if key in keys}
+    parameters = {parameter.name: _place(parameter) for parameter in node_type.parameters.values()}
+    required = tuple(parameter.name for parameter in node_type.parameters.values() if parameter.required)
+    if node_type.role in ("stack", "set"):
+        required += ("ops" if node_type.role == "stack" else "set",)
+    return _closed({**common, **parameters}, required, _summary(node_type))
+
+
+def _common(node_type: NodeType) -> Schema:
+    stream = {"$ref": "#/$defs/stream"}
+    look = _closed({"stream": stream, **{key: {"enum": list(choices), "default": choices[0]} for key, choices in LOOKS.items()}},
+                   ("stream",))
+    source = {"anyOf": [stream, look]} if node_type.role == "image" else stream
+    return {
+        "type": {"const": node_type.name},
+        "id": {"type": "string", "pattern": f"^{ID.pattern}$", "description": "By default the type."},
+        "doc": _TEXT,
+        "from": {"anyOf": [source, {"type": "array", "items": source, "minItems": 1}],
+                 "description": "Whose particles it takes."},
+        "ops": {"type": "array", "items": {"$ref": "#/$defs/operator"}, "description": "Operators, in order."},
+        "when": {"enum": list(WHEN)} if node_type.role in WHEN_ROLES else False,
+        "only": {"anyOf": [{"type": "boolean"}, _TEXT, {"$ref": "#/$defs/bool_value"}],
+                 "description": "Particles that it acts on: a condition, or the id of a selector."},
+        "during": {"anyOf": [{"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [_NUMBER, _given()]}},
+                             _given()],
+                   "description": "Start and end of the time that it acts in [s]."},
+        "enabled": {"anyOf": [{"type": "boolean"}, _given()], "default": True},
+        "seed_key": {"type": "string", "description": "Keys its random numbers in place of its path."},
+        "set": {"$ref": "#/$defs/attributes"},
+        "values": _map({"$ref": "#/$defs/any_value"}, WORD.pattern, "Named values, for this node's expressions."),
+    }
+
+
+def _given() -> Schema:
+    return {"anyOf": [_closed({"param": _TEXT}, ("param",)), _closed({"expr": _TEXT}, ("expr",))]}
+
+
+def _values(kind: str, nodes: list[NodeType]) -> Schema:
+    """Return the schema of values, other than literals, of one type that expressions know."""
+    vector = {"anyOf": [_VECTOR, {"type": "string", "pattern": _HEX}]}
+    literal = {"float": {"anyOf": [_NUMBER, _ENDLESS]}, "vec3": vector, "bool": {"type": "boolean"}}[kind]
+    part = {"anyOf": [literal, {"$ref": f"#/$defs/{kind}_value"}]}
+    pair = {"type": "array", "prefixItems": [_NUMBER, literal], "minItems": 2, "maxItems": 2}
+    pairs = {"type": "array", "items": pair, "minItems": 1}
+    scope = {"enum": list(SCOPES), "default": SCOPES[0], "description": "What has one draw."}
+    forms = [
+        _closed({"param": _TEXT}, ("param",), "A parameter of the graph."),
+        _closed({"expr": _TEXT}, ("expr",), "An expression of attributes, time, param.x and named values."),
+    ]
+    if kind != "bool":
+        forms += [
+            _closed({"keys": pairs, "interpolation": {"enum": list(INTERPOLATIONS)}, "repeat": {"enum": list(REPEATS)}},
+                    ("keys",), "Values at times [s]."),
+            _closed({"ramp": pairs, "over": {"anyOf": [_TEXT, {"$ref": "#/$defs/float_value"}], "default": "normalized_age"}},
+                    ("ramp",), "Values over another value."),
+            _closed({"rand": {"type": "array", "prefixItems": [part, part], "minItems": 2, "maxItems": 2}, "per": scope,
+                     "vary": {"type": "number", "minimum": 0, "maximum": 1}}, ("rand",), "A random value between two."),
+        ]
+    for node in nodes:
+        forms.append(_closed({node.name: {"$ref": f"#/$defs/value_{node.name}"}, "per": scope}, (node.name,), _summary(node)))
+    if kind == "vec3":
+        component = {"anyOf": [_NUMBER, {"$ref": "#/$defs/float_value"}]}
+        forms.append({"type": "array", "items": component, "minItems": 3, "maxItems": 3})
+    return {"anyOf": forms}
+
+
+def _arguments(node_type: NodeType) -> Schema:
+    required = tuple(parameter.name for parameter in node_type.parameters.values() if parameter.required)
+    return _closed({name: _place(parameter) for name, parameter in node_type.parameters.items()}, required, _summary(node_type))
+
+
+def _place(parameter: Parameter) -> Schema:
+    """Return what may stand for a parameter: literals within its range, and values of its type."""
+    literal = _literal(parameter)
+    kind = lane(parameter.type)
+    result: Schema = {"description": f"{parameter.doc} [{parameter.unit}]" if parameter.unit else parameter.doc}
+    default = _default(parameter)
+    if default is not None and not parameter.required:
+        result["default"] = default
+    if parameter.type in REFERENCE_TYPES:
+        return result | literal
+    values = {"$ref": f"#/$defs/{kind}_value"} if kind in ("float", "vec3", "bool") else _closed({"param": _TEXT}, ("param",))
+    return result | {"anyOf": [literal, values]}
+
+
+def _literal(parameter: Parameter) -> Schema:
+    bounds = {key: value for key, value in (("minimum", parameter.min), ("maximum", parameter.max)) if value is not None}
+    number = {"type": "integer" if parameter.type == "int" else "number", **bounds}
+    kind = parameter.type
+    if parameter.choices and kind not in REFERENCE_TYPES:
+        return {"enum": [int(choice) for choice in parameter.choices] if kind == "int" else list(parameter.choices)}
+    if kind == "float":
+        endless = [text for text, bound in (("infinity", parameter.max), ("-infinity", parameter.min)) if bound is None]
+        return {"anyOf": [number, {"enum": endless}]} if endless else number
+    if kind in VECTORS:
+        vector = {"type": "array", "prefixItems": [number] * 3, "minItems": 3, "maxItems": 3}
+        return {"anyOf": [vector, {"type": "string", "pattern": _HEX}]} if kind == "color" else vector
+    if kind == "list":
+        size = {"minItems": len(parameter.default), "maxItems": len(parameter.default)} if parameter.default else {}
+        return {"type": "array", "items": {"anyOf": [{**number, "type": "number"}, _TEXT]}, **size}
+    others: dict[str, Schema] = {"int": number, "bool": {"type": "boolean"}, "interval": _INTERVAL}
+    return others.get(kind, _TEXT)
+
+
+def _default(parameter: Parameter) -> Any:
+    default = parameter.default
+    if default in (float("inf"), float("-inf")):
+        return "infinity" if default > 0 else "-infinity"
+    return list(default) if isinstance(default, tuple) else default
+
+
+def _of_attribute(name: str) -> Parameter:
+    attribute = ATTRIBUTES[name]
+    return Parameter(name, attribute.type, attribute.default, attribute.unit, doc=attribute.doc)
+
+
+def _summary(node_type: NodeType) -> str:
+    return node_type.doc.split("\n\n")[0].replace("\n", " ")
