@@ -23,7 +23,7 @@ from graphfx.errors import UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
-from graphfx.output.png import write_png
+from graphfx.output.png import eight_bit, write_png
 from graphfx.plan.make import ImagePlan, Plan, make_plan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
@@ -92,9 +92,8 @@ class Effect:
 
     def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
         file = out / file_name(str(image.value("file")), self.flat.name, frame)
-        background = None if image.value("transparent") else tuple(image.value("background"))
         file.parent.mkdir(parents=True, exist_ok=True)
-        write_png(file, film.pixels * np.float32(2.0 ** float(image.value("exposure"))), background)
+        write_png(file, _exposed(image, film), _background(image))
         return file
 
     def _checked(self, frames: list[int]) -> list[int]:
@@ -118,13 +117,32 @@ class Effect:
         return {path: {name: _columns(particles.store.column(name), particles.living()) for name in particles.store.columns}
                 for path, particles in simulation.particles.items()}
 
-    def frame(self, frame: int, threads: int | None = None, image: int = 0) -> Film:
-        """Return the picture of one frame, linear and premultiplied."""
+    def film(self, frame: int, threads: int | None = None, image: int = 0) -> Film:
+        """Return a frame of one of the graph's images as a film: linear, premultiplied float32."""
         self._checked([frame])
         simulation = self.simulation(threads or available_threads())
         for _ in simulation.frames(frame):
             pass
         return draw(self.plan.images[image], simulation, frame, threads or available_threads())
+
+    def frame(self, frame: int, threads: int | None = None, image: int = 0) -> Any:
+        """Return a frame as a Pillow image, which notebooks show."""
+        from PIL import Image
+
+        plan = self.plan.images[image]
+        return Image.fromarray(eight_bit(_exposed(plan, self.film(frame, threads, image)), _background(plan)))
+
+
+def _background(image: ImagePlan) -> tuple[float, float, float] | None:
+    red, green, blue = (float(part) for part in image.value("background"))
+    return None if image.value("transparent") else (red, green, blue)
+
+
+def _exposed(image: ImagePlan, film: Film) -> np.ndarray:
+    """Return a film with its light scaled by 2 to the power of the exposure."""
+    scaled = film.pixels.copy()
+    scaled[..., :3] *= np.float32(2.0 ** float(image.value("exposure")))
+    return scaled
 
 
 def _columns(arrays: tuple[np.ndarray, ...], rows: np.ndarray) -> np.ndarray:
