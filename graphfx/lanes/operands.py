@@ -1,7 +1,9 @@
 """What kernels do with memory: bare pointers, operands by place, masks as arrays of bits, words.
 
 A kernel is handed `scratch`, `operands` and `masks`. `operands[place]` and the next hold (offset, lane
-mask): an operand is read at offset + (lane & lane mask). Results have an offset alone.
+mask): an operand of n components is read at offset + (n lane & lane mask), its components one line of
+lanes after another. So a column holds sixteen x, sixteen y, sixteen z (eight of float64), then those of
+the next lanes, and a uniform one line of each. Results have an offset alone.
 """
 
 from __future__ import annotations
@@ -25,9 +27,29 @@ def _entry(builder: ir.IRBuilder, operands: ir.Value, place: int) -> ir.Value:
     return builder.load(builder.gep(operands, [ir.Constant(INT64, place)]))
 
 
+LINE = {True: 16, False: 8}
+"""Lanes in a line of scratch, by whether they are float32."""
+
+
+def _scaled(builder: ir.IRBuilder, lane: ir.Value, real: Real, components: int) -> ir.Value:
+    """Return where the lanes from `lane` on lie in a column of so many components; kernels of width 1 go lane by lane."""
+    line = LINE[real.single]
+    if components == 1:
+        return lane
+    if real.width == line:
+        return builder.mul(lane, ir.Constant(INT64, components))
+    within = builder.and_(lane, ir.Constant(INT64, line - 1))
+    return builder.add(builder.mul(builder.sub(lane, within), ir.Constant(INT64, components)), within)
+
+
 def _offset(builder: ir.IRBuilder, operands: ir.Value, place: int, lane: ir.Value) -> ir.Value:
     offset, lane_mask = _entry(builder, operands, place), _entry(builder, operands, place + 1)
     return builder.add(offset, builder.and_(lane, lane_mask))
+
+
+def _component(builder: ir.IRBuilder, base: ir.Value, index: ir.Value, k: int, real: Real, type_: ir.Type) -> ir.Value:
+    """Return the pointer to component k of what lies at base + index."""
+    return _pointer(builder, builder.gep(base, [index]), ir.Constant(INT64, k * LINE[real.single]), type_)
 
 
 def _pointer(builder: ir.IRBuilder, base: ir.Value, index: ir.Value, type_: ir.Type) -> ir.Value:
@@ -49,10 +71,9 @@ def _reader(components: int) -> Any:
         result = {1: real, 3: Vec3Type(real), 4: types.UniTuple(real, 4)}[components]
 
         def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-            parts = []
-            for k in range(components):
-                index = _offset(builder, values[2], first + 2 * k, values[4])
-                parts.append(builder.load(_pointer(builder, values[1], index, real.llvm), align=_bytes(real)))
+            index = _offset(builder, values[2], first, _scaled(builder, values[4], real, components))
+            parts = [builder.load(_component(builder, values[1], index, k, real, real.llvm), align=_bytes(real))
+                     for k in range(components)]
             if components == 1:
                 return parts[0]
             if components == 4:
@@ -77,17 +98,19 @@ def _writer(components: int) -> Any:
         real, first = model.instance_type, _literal(place)
         if first is None:
             return None
-        expected = real if components == 1 else Vec3Type(real)
+        expected = {1: real, 3: Vec3Type(real), 4: types.UniTuple(real, 4)}[components]
 
         def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
             if components == 1:
                 parts = [values[6]]
+            elif components == 4:
+                parts = cgutils.unpack_tuple(builder, values[6], 4)
             else:
                 proxy = cgutils.create_struct_proxy(expected)(context, builder, value=values[6])
                 parts = [proxy.x, proxy.y, proxy.z]
+            index = builder.add(_entry(builder, values[2], first), _scaled(builder, values[4], real, components))
             for k, part in enumerate(parts):
-                index = builder.add(_entry(builder, values[2], first + k), values[4])
-                pointer = _pointer(builder, values[1], index, real.llvm)
+                pointer = _component(builder, values[1], index, k, real, real.llvm)
                 old = builder.load(pointer, align=_bytes(real))
                 builder.store(builder.select(values[5], part, old), pointer, align=_bytes(real))
             return context.get_dummy_value()
@@ -97,7 +120,7 @@ def _writer(components: int) -> Any:
     return write
 
 
-write_float, write_vec3 = _writer(1), _writer(3)
+write_float, write_vec3, write_draw = _writer(1), _writer(3), _writer(4)
 
 
 def _word_pointer(builder: ir.IRBuilder, masks: ir.Value, lane: ir.Value, width: int) -> ir.Value:
@@ -151,20 +174,30 @@ def write_mask(typing: Any, model: Any, masks: Any, operands: Any, place: Any, l
     return types.void(model, masks, operands, place, types.int64, value), generate
 
 
-@intrinsic(prefer_literal=True)
-def read_word(typing: Any, model: Any, scratch: Any, operands: Any, place: Any, lane: Any) -> Any:
-    """Return the bits of an operand as words; of 64-bit lanes the low half."""
-    real, first = model.instance_type, _literal(place)
-    if first is None:
-        return None
-    word = Word(real.width)
+def _word_reader(components: int) -> Any:
+    """Return an intrinsic that reads the bits of an operand as a tuple of words; of 64-bit lanes the low halves."""
 
-    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-        pointer = _pointer(builder, values[1], _offset(builder, values[2], first, values[4]), real.llvm_integer)
-        bits = builder.load(pointer, align=_bytes(real))
-        return bits if real.single else builder.trunc(bits, word.llvm)
+    @intrinsic(prefer_literal=True)
+    def read(typing: Any, model: Any, scratch: Any, operands: Any, place: Any, lane: Any) -> Any:
+        real, first = model.instance_type, _literal(place)
+        if first is None:
+            return None
+        word = Word(real.width)
 
-    return word(model, scratch, operands, place, types.int64), generate
+        def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
+            index = _offset(builder, values[2], first, _scaled(builder, values[4], real, components))
+            parts = []
+            for k in range(components):
+                bits = builder.load(_component(builder, values[1], index, k, real, real.llvm_integer), align=_bytes(real))
+                parts.append(bits if real.single else builder.trunc(bits, word.llvm))
+            return cgutils.pack_array(builder, parts)
+
+        return types.UniTuple(word, components)(model, scratch, operands, place, types.int64), generate
+
+    return read
+
+
+read_word, read_id = _word_reader(1), _word_reader(2)
 
 
 @intrinsic(prefer_literal=True)

@@ -142,21 +142,12 @@ def _place_columns(spans: Any, places: dict[int, int], columns: _Places, masks: 
         busy.append((last, key))
 
 
-def _read(operand: Operand, places: dict[int, int], lanes: int) -> list[int]:
-    place = places[id(operand)]
-    uniform = isinstance(operand, Uniform)
-    if operand.type == "bool":
-        return [place, -1]
-    step, lane_mask = (lanes, 0) if uniform else (BLOCK, -1)
-    return [number for k in range(COMPONENTS[operand.type]) for number in (place + k * step, lane_mask)]
-
-
-def _written(column: Column, places: dict[int, int]) -> list[int]:
-    return [places[id(column)] + k * BLOCK for k in range(max(COMPONENTS[column.type], 1))]
+def _read(operand: Operand, places: dict[int, int]) -> list[int]:
+    uniform = isinstance(operand, Uniform) and operand.type != "bool"
+    return [places[id(operand)], 0 if uniform else -1]
 
 
 def _encode(body: list[Any], places: dict[int, int], precision: int) -> list[int]:
-    lanes = FLOAT_LANES[DTYPES[precision]]
     code: list[int] = []
     for instruction in body:
         if isinstance(instruction, Loop):
@@ -167,15 +158,14 @@ def _encode(body: list[Any], places: dict[int, int], precision: int) -> list[int
         if isinstance(instruction, Draw):
             address = draw_kernel(precision).address
             for operand in (instruction.identity, instruction.life, instruction.cell):
-                operands += _read(operand, places, lanes)
-            operands += [*_written(instruction.result, places), *instruction.key]
+                operands += _read(operand, places)
+            operands += [places[id(instruction.result)], *instruction.key]
         else:
             address = kernel_of(instruction.function, precision).address
             if instruction.function.bundle:
                 operands.append(instruction.function.number)
             for operand in instruction.operands:
-                operands += _read(operand, places, lanes)
-            for column in instruction.results:
-                operands += _written(column, places)
+                operands += _read(operand, places)
+            operands += [places[id(column)] for column in instruction.results]
         code += [CALL, len(operands) + CALL_HEADER, address, *operands]
     return code

@@ -16,18 +16,15 @@ FIRST, SECOND = PHILOX_MULTIPLIERS
 WEYL_FIRST, WEYL_SECOND = PHILOX_WEYL
 
 SOURCE = """def kernel(S, C, M):
-    first, second = read_number(C, 13), read_number(C, 14)
+    first, second = read_number(C, 8), read_number(C, 9)
     for l in range(0, 256, {width}):
         on = read_mask(R, M, C, 0, l)
         if any_lane(on):
-            w = draw(R, read_word(R, S, C, 1, l), read_word(R, S, C, 3, l), read_word(R, S, C, 5, l), read_word(R, S, C, 7, l),
-                     first, second)
-            write_float(R, S, C, 9, l, on, uniform_of(R, w[0]))
-            write_float(R, S, C, 10, l, on, uniform_of(R, w[1]))
-            write_float(R, S, C, 11, l, on, uniform_of(R, w[2]))
-            write_float(R, S, C, 12, l, on, uniform_of(R, w[3]))
+            i, n, c = read_id(R, S, C, 1, l), read_word(R, S, C, 3, l), read_word(R, S, C, 5, l)
+            w = draw(R, i[0], i[1], n[0], c[0], first, second)
+            write_draw(R, S, C, 7, l, on, (uniform_of(R, w[0]), uniform_of(R, w[1]), uniform_of(R, w[2]), uniform_of(R, w[3])))
 """
-"""Operands: mask, id (two words), life, cell, four results, the two words of the key."""
+"""Operands: mask, id, life, cell, the result, the two words of the key."""
 
 
 @inlined

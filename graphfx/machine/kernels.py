@@ -1,7 +1,7 @@
 """Kernels: a scalar function over one block of 256 particles, as vector code.
 
 A kernel has one fixed signature, `kernel(scratch, operands, masks)`. `operands` lists first the
-context mask, then for every component of every argument (offset, lane mask), then the results.
+context mask, then for every argument (offset, lane mask), then the results' offsets.
 Lane mask -1 reads a column, 0 a value splatted over one vector, so one compiled kernel serves
 uniform and per-particle arguments alike. Groups of lanes that the context leaves out are skipped.
 Lanes outside the context keep what their columns hold; a truth is false there.
@@ -56,7 +56,7 @@ def _loads(function: Function, place: int) -> tuple[list[str], list[str], int]:
         memory = "M" if type_ == "bool" else "S"
         lines.append(f"a{position} = read_{'mask' if type_ == 'bool' else type_}(R, {memory}, C, {place}, l)")
         names.append(f"a{position}")
-        place += 2 * {"bool": 1, "float": 1, "vec3": 3, "draw": 4}[type_]
+        place += 2
     return lines, names, place
 
 
@@ -68,7 +68,7 @@ def _stores(function: Function, place: int) -> list[str]:
             lines.append(f"write_mask(R, M, C, {place}, l, on & {value})")
         else:
             lines.append(f"write_{type_}(R, S, C, {place}, l, on, {value})")
-        place += 3 if type_ == "vec3" else 1
+        place += 1
     return lines
 
 

@@ -10,8 +10,8 @@ import numpy as np
 
 from graphfx.machine.assemble import Assembled
 from graphfx.machine.loop import MASK_WORDS, run_blocks
-from graphfx.machine.transfer import AGE, BLOCK, ID, MASK, REAL, WORD
-from graphfx.program import Column, Uniform
+from graphfx.machine.transfer import AGE, BLOCK, ID, LINE_BYTES, MASK, REAL, WORD
+from graphfx.program import COMPONENTS, Column, Uniform
 from graphfx.store.threads import parallel
 
 NO_ROWS = np.zeros(0, np.int64)
@@ -39,8 +39,17 @@ def _table(columns: Mapping[str, Column], arrays: Mapping[str, Any], by_place: f
             kind = _KINDS.get(part.dtype, REAL)
             if name == "age":
                 kind = AGE
-            lines.append((part.ctypes.data, kind, place + k * BLOCK, int(name in by_place)))
-    return np.array(lines, np.int64).reshape(-1, 4)
+            lines.append((part.ctypes.data, kind, place + k * made.lanes, int(name in by_place), COMPONENTS[column.type]))
+    return np.array(lines, np.int64).reshape(-1, 5)
+
+
+def _aligned(values: np.ndarray) -> np.ndarray:
+    """Return a copy that begins at a line of the cache, so that no vector of lanes lies across two."""
+    room = np.empty(values.nbytes + LINE_BYTES, np.uint8)
+    begin = -room.ctypes.data % LINE_BYTES
+    copy = room[begin : begin + values.nbytes].view(values.dtype)
+    copy[:] = values
+    return copy
 
 
 def run(
@@ -75,7 +84,7 @@ def run(
     pieces = (blocks + PIECE - 1) // PIECE
 
     def piece(number: int) -> None:
-        scratch, own = template.copy(), masks.copy()
+        scratch, own = _aligned(template), masks.copy()
         counts = np.array([number * PIECE, min((number + 1) * PIECE, blocks), rows.count], np.int64)
         run_blocks(made.code, loads, stores, scratch, scratch.view(unsigned), own, rows.listed, rows.excluded, rejected,
                    rejects, counts, now)

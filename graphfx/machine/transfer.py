@@ -1,97 +1,100 @@
 """Copy columns between a processor set and the scratch of a block, whole or gathered by a list of rows.
 
-A table has one line a column: (address, kind, offset in the scratch, by place). A column `by place`
-runs along with the list of rows, the others are indexed by row.
+In the scratch the components of a column lie line by line: sixteen float32 (or eight float64) x, as many
+y, as many z, then those of the next lanes. A table has one line a component array: (address, kind, offset
+in the scratch, by place, components of the column). A column `by place` runs along with the list of
+rows, the others are indexed by row. All arrays are whole blocks long.
 """
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.core import cgutils
-from numba.extending import intrinsic
-from numba.np.numpy_support import from_dtype
 
 from graphfx.lanes import inlined
+from graphfx.lanes.addresses import (
+    address_of,
+    blend_line,
+    copy_line,
+    pack_truths,
+    read_byte,
+    read_float32,
+    read_float64,
+    read_int32,
+    read_uint64,
+    split_ids,
+    subtract_times,
+    unpack_truths,
+    widen_words,
+    write_byte,
+    write_float32,
+    write_float64,
+)
 
 BLOCK = 256
+LINE_BYTES = 64
 REAL, ID, MASK, AGE, WORD = 0, 1, 2, 3, 4
 """Kinds of columns: reals as they are; uint64 as two words; uint8 as bits of a mask; the float64 time of
 birth, read as now minus it; int32 as one word."""
 
-
-def _element(dtype: Any) -> tuple[types.Type, ir.Type]:
-    number = from_dtype(np.dtype(dtype))
-    bits = number.bitwidth
-    plain = {types.float32: ir.FloatType(), types.float64: ir.DoubleType()}
-    return number, plain.get(number, ir.IntType(bits))
-
-
-def _reader(dtype: Any) -> Any:
-    number, llvm = _element(dtype)
-
-    @intrinsic
-    def read(typing: Any, address: Any, index: Any) -> Any:
-        def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-            pointer = builder.inttoptr(values[0], llvm.as_pointer())
-            return builder.load(builder.gep(pointer, [values[1]]))
-
-        return number(types.int64, types.int64), generate
-
-    return read
-
-
-def _writer(dtype: Any) -> Any:
-    number, llvm = _element(dtype)
-
-    @intrinsic
-    def write(typing: Any, address: Any, index: Any, value: Any) -> Any:
-        def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-            pointer = builder.inttoptr(values[0], llvm.as_pointer())
-            builder.store(context.cast(builder, values[2], sig.args[2], number), builder.gep(pointer, [values[1]]))
-            return context.get_dummy_value()
-
-        return types.void(types.int64, types.int64, value), generate
-
-    return write
-
-
-read_float32, read_float64 = _reader(np.float32), _reader(np.float64)
-read_byte, read_uint64, read_int32 = _reader(np.uint8), _reader(np.uint64), _reader(np.int32)
-write_float32, write_float64, write_byte = _writer(np.float32), _writer(np.float64), _writer(np.uint8)
-
-
-@intrinsic
-def copy_bytes(typing: Any, target: Any, source: Any, count: Any) -> Any:
-    """Copy bytes between two addresses that do not overlap."""
-
-    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-        byte = ir.IntType(8).as_pointer()
-        cgutils.raw_memcpy(builder, builder.inttoptr(values[0], byte), builder.inttoptr(values[1], byte), values[2], 1)
-        return context.get_dummy_value()
-
-    return types.void(types.int64, types.int64, types.int64), generate
-
-
-@intrinsic
-def address_of(typing: Any, array: Any, index: Any) -> Any:
-    """Return the address of array[index]."""
-
-    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-        data = context.make_array(array)(context, builder, values[0]).data
-        return builder.ptrtoint(builder.gep(data, [values[1]]), ir.IntType(64))
-
-    return types.int64(array, types.int64), generate
+blend_single, blend_double = blend_line[32], blend_line[64]
+split_single, split_double = split_ids[32], split_ids[64]
+ages_single, ages_double = subtract_times[32], subtract_times[64]
 
 
 @inlined
-def _read_real(scratch, address, index):
-    if scratch.itemsize == 4:
-        return np.float64(read_float32(address, index))
-    return read_float64(address, index)
+def _lane_index(lane, components, size):
+    """Return where a lane's element lies, from the component's first: `size` is the bytes of an element."""
+    width = LINE_BYTES // size
+    return lane // width * width * components + lane % width
+
+
+@inlined
+def _load_lines(kind, target, source, step, size, now):
+    """Fill a column from consecutive rows: `target` is its first line, the next `step` bytes on."""
+    width = LINE_BYTES // size
+    for line in range(BLOCK // width):
+        to, row = target + line * step, line * width
+        if kind == REAL:
+            copy_line(to, source + row * size)
+        elif kind == ID:
+            if size == 4:
+                split_single(to, source + row * 8)
+            else:
+                split_double(to, source + row * 8)
+        elif kind == AGE:
+            if size == 4:
+                ages_single(to, source + row * 8, now)
+            else:
+                ages_double(to, source + row * 8, now)
+        elif size == 4:
+            copy_line(to, source + row * 4)
+        else:
+            widen_words(to, source + row * 4)
+
+
+@inlined
+def _element_bytes(kind, size):
+    if kind == REAL:
+        return size
+    return 1 if kind == MASK else 4 if kind == WORD else 8
+
+
+@inlined
+def _load_lane(kind, scratch, words, masks, offset, index, lane, address, row, now):
+    """Fill one lane of a column from a row."""
+    if kind == REAL:
+        scratch[offset + index] = read_float32(address, row) if scratch.itemsize == 4 else read_float64(address, row)
+    elif kind == ID:
+        identity = read_uint64(address, row)
+        words[offset + index] = identity & np.uint64(0xFFFFFFFF)
+        words[offset + index + LINE_BYTES // scratch.itemsize] = identity >> np.uint64(32)
+    elif kind == MASK:
+        if read_byte(address, row) != 0:
+            masks[(offset + lane) >> 4] |= np.uint16(1) << np.uint16(lane & 15)
+    elif kind == AGE:
+        scratch[offset + index] = now - read_float64(address, row)
+    else:
+        words[offset + index] = read_int32(address, row)
 
 
 @inlined
@@ -99,51 +102,56 @@ def load_block(table, scratch, words, masks, rows, first, count, now):
     """Fill the scratch with `count` rows from `first` on; `rows` lists them, or is empty for rows in order."""
     size = scratch.itemsize
     for line in range(table.shape[0]):
-        address, kind, offset, by_place = table[line, 0], table[line, 1], table[line, 2], table[line, 3]
-        gathered = rows.size > 0 and by_place == 0
-        if kind == REAL and not gathered:
-            copy_bytes(address_of(scratch, offset), address + first * size, np.int64(BLOCK * size))
+        address, kind, offset, components = table[line, 0], table[line, 1], table[line, 2], table[line, 4]
+        if rows.size == 0 or table[line, 3] != 0:
+            source = address + first * _element_bytes(kind, size)
+            if kind == MASK:
+                for word in range(BLOCK // 16):
+                    pack_truths(address_of(masks, (offset >> 4) + word), source + word * 16)
+            else:
+                _load_lines(kind, address_of(scratch, offset), source, components * LINE_BYTES, size, now)
             continue
         if kind == MASK:
             for word in range(BLOCK // 16):
                 masks[(offset >> 4) + word] = 0
         for lane in range(count):
-            row = rows[first + lane] if gathered else first + lane
-            if kind == REAL:
-                scratch[offset + lane] = _read_real(scratch, address, row)
-            elif kind == ID:
-                identity = read_uint64(address, row)
-                words[offset + lane] = identity & np.uint64(0xFFFFFFFF)
-                words[offset + BLOCK + lane] = identity >> np.uint64(32)
-            elif kind == MASK:
-                if read_byte(address, row) != 0:
-                    masks[(offset + lane) >> 4] |= np.uint16(1) << np.uint16(lane & 15)
-            elif kind == AGE:
-                scratch[offset + lane] = now - read_float64(address, row)
-            else:
-                words[offset + lane] = read_int32(address, row)
+            index = _lane_index(lane, components, size)
+            _load_lane(kind, scratch, words, masks, offset, index, lane, address, rows[first + lane], now)
+
+
+@inlined
+def _store_lines(kind, target, scratch, masks, offset, step, keep):
+    """Write a column to consecutive rows: the lanes whose bits are on in masks[keep:]."""
+    size = scratch.itemsize
+    for word in range(BLOCK // 16):
+        on = np.int64(masks[keep + word])
+        if kind == MASK:
+            unpack_truths(target + word * 16, address_of(masks, (offset >> 4) + word), on)
+        elif size == 4:
+            blend_single(target + word * 64, address_of(scratch, offset) + word * step, on)
+        else:
+            source = address_of(scratch, offset) + 2 * word * step
+            blend_double(target + word * 128, source, on & 255)
+            blend_double(target + word * 128 + 64, source + step, on >> 8)
 
 
 @inlined
 def store_block(table, scratch, masks, rows, first, keep):
     """Write back the lanes whose bits are on in masks[keep:]."""
     size = scratch.itemsize
-    full = True
-    for word in range(BLOCK // 16):
-        full = full and masks[keep + word] == np.uint16(0xFFFF)
     for line in range(table.shape[0]):
-        address, kind, offset, by_place = table[line, 0], table[line, 1], table[line, 2], table[line, 3]
-        gathered = rows.size > 0 and by_place == 0
-        if kind == REAL and full and not gathered:
-            copy_bytes(address + first * size, address_of(scratch, offset), np.int64(BLOCK * size))
+        address, kind, offset, components = table[line, 0], table[line, 1], table[line, 2], table[line, 4]
+        if rows.size == 0 or table[line, 3] != 0:
+            target = address + first * _element_bytes(kind, size)
+            _store_lines(kind, target, scratch, masks, offset, components * LINE_BYTES, keep)
             continue
         for lane in range(BLOCK):
             if (masks[keep + (lane >> 4)] >> np.uint16(lane & 15)) & 1 == 0:
                 continue
-            row = rows[first + lane] if gathered else first + lane
+            row, index = rows[first + lane], _lane_index(lane, components, size)
             if kind == MASK:
                 write_byte(address, row, (masks[(offset + lane) >> 4] >> np.uint16(lane & 15)) & 1)
             elif size == 4:
-                write_float32(address, row, scratch[offset + lane])
+                write_float32(address, row, scratch[offset + index])
             else:
-                write_float64(address, row, scratch[offset + lane])
+                write_float64(address, row, scratch[offset + index])
