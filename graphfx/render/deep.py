@@ -28,7 +28,7 @@ from graphfx.render.pending import LANES, clear_light
 from graphfx.render.segments import KEY0, KEY1
 from graphfx.render.tiles import lanes_inside, write_pixels
 
-FIRST_CAPACITY = 256
+FIRST_CAPACITY = 64
 
 
 @inner

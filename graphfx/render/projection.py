@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.lanes import compiled
+from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
 from graphfx.render.segments import (
@@ -66,6 +67,12 @@ class Look(NamedTuple):
 
 
 @inner
+def _value(columns, c, i):
+    """Return particle i's value of column c: row 0 of `columns` holds the addresses, row 1 the masks of the index."""
+    return float_at(columns[0, c], i & columns[1, c])
+
+
+@inner
 def _transformed(matrix, x, y, z):
     return (
         matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3],
@@ -92,10 +99,10 @@ def _mixed(a, b, s):
 
 
 @inner
-def _finite(columns, masks, i):
+def _finite(columns, i):
     total = 0.0
     for c in range(17):
-        value = columns[c][i & masks[c]]
+        value = _value(columns, c, i)
         total += value - value
     return total == 0.0
 
@@ -111,13 +118,13 @@ def _color(value):
 
 
 @inner
-def _screen_segment(columns, masks, i, view):
+def _screen_segment(columns, i, view):
     """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1)) of particle i."""
-    head = _transformed(view.head, columns[0][i & masks[0]], columns[1][i & masks[1]], columns[2][i & masks[2]])
-    tail = _transformed(view.tail, columns[3][i & masks[3]], columns[4][i & masks[4]], columns[5][i & masks[5]])
+    head = _transformed(view.head, _value(columns, 0, i), _value(columns, 1, i), _value(columns, 2, i))
+    tail = _transformed(view.tail, _value(columns, 3, i), _value(columns, 4, i), _value(columns, 5, i))
     first, last = _between_planes(head[2], tail[2], view.near, view.far)
-    r_head = max(np.float64(columns[6][i & masks[6]]), 0.0) * view.head_scale
-    r_tail = max(np.float64(columns[7][i & masks[7]]), 0.0) * view.tail_scale
+    r_head = max(np.float64(_value(columns, 6, i)), 0.0) * view.head_scale
+    r_tail = max(np.float64(_value(columns, 7, i)), 0.0) * view.tail_scale
     x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
     y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
     k0, k1 = _mixed(head[2], tail[2], first), _mixed(head[2], tail[2], last)
@@ -175,16 +182,16 @@ def _write_place(segment, pace, look, segments, at):
 
 
 @inner
-def _write_look(columns, masks, i, first, last, factor, look, segments, at):
+def _write_look(columns, i, first, last, factor, look, segments, at):
     """Write colour and opacity of both ends; return whether any opacity is left."""
     values, tails = segments.values, segments.tails
-    head, tail = _unit(np.float64(columns[14][i & masks[14]])), _unit(np.float64(columns[15][i & masks[15]]))
+    head, tail = _unit(np.float64(_value(columns, 14, i))), _unit(np.float64(_value(columns, 15, i)))
     opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, 1.0))
     opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, 1.0))
     values[at, OPACITY] = opacity0
     varying = opacity0 != opacity1
     for c in range(3):
-        head, tail = _color(columns[8 + c][i & masks[8 + c]]), _color(columns[11 + c][i & masks[11 + c]])
+        head, tail = _color(_value(columns, 8 + c, i)), _color(_value(columns, 11 + c, i))
         values[at, RED + c] = _mixed(head, tail, first)
         if look.varies:
             tails[at, c] = _mixed(head, tail, last)
@@ -197,20 +204,20 @@ def _write_look(columns, masks, i, first, last, factor, look, segments, at):
 
 
 @compiled
-def project(columns, masks, view, look, start, stop, segments, offset):
+def project(columns, view, look, start, stop, segments, offset):
     """Write the segments of particles start ... stop from row offset + start on; return how many, and how many were dropped."""
     at, dropped = offset + start, 0
     for i in range(start, stop):
-        if not _finite(columns, masks, i):
+        if not _finite(columns, i):
             dropped += 1
             continue
-        visible, first, last, segment = _screen_segment(columns, masks, i, view)
+        visible, first, last, segment = _screen_segment(columns, i, view)
         if not visible or not _touches(segment, look.reach, view.width, view.height):
             continue
         _write_place(segment, _pace(segment, look, view.perspective), look, segments, at)
         factor = evenness(segments, at, view.perspective, _true_total(segment, look))
         if look.exposed:
-            factor *= _unit(np.float64(columns[16][i & masks[16]])) * (last - first)
-        if _write_look(columns, masks, i, first, last, factor, look, segments, at):
+            factor *= _unit(np.float64(_value(columns, 16, i))) * (last - first)
+        if _write_look(columns, i, first, last, factor, look, segments, at):
             at += 1
     return at - offset - start, dropped

@@ -20,7 +20,7 @@ from graphfx.render.layer import GROUPS
 from graphfx.render.pending import LANES, LIGHT, PLANES
 from graphfx.render.projection import Look, View, project
 from graphfx.render.segments import Segments, empty_segments
-from graphfx.render.streaks import Streaks
+from graphfx.render.streaks import Streaks, addresses
 from graphfx.render.tiles import Tiles, new_scratch, render_tiles
 from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
@@ -73,14 +73,14 @@ def _project(
     rows: list[np.ndarray] = []
     offset = dropped = 0
     for stream in streams:
-        columns, masks = stream.columns()
+        columns = stream.columns()
         look = Look(
             *FALLOFFS[stream.falloff], -1.0 if stream.blend == "add" else 1.0, stream.streak == "exposed", stream.varies
         )
         bounds = ranges(stream.count, threads, PROJECTED)
         results: list[tuple[int, int]] = [(0, 0)] * len(bounds)
 
-        def work(piece: int, start: int, stop: int, given: Any = (columns, masks, view, look), offset: int = offset,
+        def work(piece: int, start: int, stop: int, given: Any = (addresses(columns), view, look), offset: int = offset,
                  results: list[tuple[int, int]] = results) -> None:
             results[piece] = project(*given, start, stop, segments, offset)
 

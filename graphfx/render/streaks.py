@@ -61,8 +61,8 @@ class Streaks:
         """Return whether colour or opacity may differ between head and tail."""
         return self.tail_color is not None or self.tail_opacity is not None
 
-    def columns(self) -> tuple[tuple[np.ndarray, ...], np.ndarray]:
-        """Return the 17 columns as float32 arrays, and for each the mask of its index: -1, or 0 where one number serves all.
+    def columns(self) -> list[np.ndarray]:
+        """Return the 17 columns as float32: of n values, or of one where one number serves all.
 
         Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share.
         """
@@ -72,9 +72,13 @@ class Streaks:
         tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
         given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
                  self.head_opacity, tail_opacity, self.share]
-        columns = tuple(np.require(column, np.float32, ["C", "W"]).reshape(-1) for column in given)
+        columns = [np.ascontiguousarray(column, np.float32).reshape(-1) for column in given]
         for column in columns:
             if column.size not in (1, self.count):
                 raise ValueError(f"a column holds {column.size} values for {self.count} particles")
-        masks = np.array([0 if column.size == 1 else -1 for column in columns], np.int64)
-        return columns, masks
+        return columns
+
+
+def addresses(columns: list[np.ndarray]) -> np.ndarray:
+    """Return (2, columns): where each column lies, and the mask of its index, -1, or 0 where one number serves all."""
+    return np.array([[column.ctypes.data for column in columns], [0 if column.size == 1 else -1 for column in columns]])

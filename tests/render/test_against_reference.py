@@ -122,6 +122,23 @@ def test_equal_depths_are_ordered_by_stream_and_particle():
     assert (ahead[..., 0] >= ahead[..., 1]).all() and ahead[..., 0].max() > 0.5
 
 
+def test_streaks_in_one_place_are_ordered_by_particle():
+    """Streaks that slope in depth and lie in each other, fifty times three: all their fragments tie."""
+    scene = streaks(30, 150, length=1.5, radius=(0.1, 0.5), streak="solid")
+    for column in (scene.head, scene.tail, scene.head_radius):
+        column[..., 50:] = np.concatenate([column[..., :50]] * 2, axis=-1)
+    hold(scene)
+
+
+def test_ties_keep_their_order_when_something_comes_before_them():
+    """Three equal slopes, then a streak that is nearer than half of each."""
+    camera = Camera(projection="orthographic", width_of_view=64.0)
+    head = np.float32([[-20] * 4, [0] * 4, [0, 0, 0, 4.9]])
+    tail = np.float32([[20] * 4, [0] * 4, [5, 5, 5, 4.9]])
+    colors = np.float32([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]])
+    hold(Streaks(head, tail, 4.0, head_color=colors, head_opacity=0.5, streak="solid"), camera=camera, size=(64, 32))
+
+
 @pytest.mark.parametrize("count, seed", [(CAPACITY + 30, 18), (700, 19)])
 def test_streaks_that_pierce_each_other_deeply(count, seed):
     """Where more fragments are pending than a list holds, the group is sorted whole, to the same order."""

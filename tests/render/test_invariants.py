@@ -10,7 +10,7 @@ from graphfx.render.camera import Camera
 from graphfx.render.falloff import FALLOFFS
 from graphfx.render.streaks import Streaks
 
-from .scenes import CAMERA, comets, film, streaks
+from .scenes import CAMERA, FLAT, comets, film, streaks
 
 PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
 """One pixel a metre, 64 wide."""
@@ -55,8 +55,8 @@ def test_lists_that_overflow_are_sorted(monkeypatch):
 
 def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
     """A group sorted whole holds what its list would have given, to the last bit."""
-    scene = [comets(3, 300), streaks(4, 200, blend="add")]
-    normal = film(*scene).pixels
+    scene = [comets(3, 300), streaks(4, 200, blend="add"), *_tied(200)]
+    normal = film(*scene, camera=FLAT).pixels
     render_tiles = renderer.render_tiles
 
     def put_all_aside(*given):
@@ -65,7 +65,15 @@ def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
         return 0
 
     monkeypatch.setattr(renderer, "render_tiles", put_all_aside)
-    assert film(*scene).pixels.tobytes() == normal.tobytes()
+    assert film(*scene, camera=FLAT).pixels.tobytes() == normal.tobytes()
+
+
+def _tied(count: int) -> list[Streaks]:
+    """Return still particles, and streaks whose nearer ends are just where those are."""
+    still, moving = streaks(31, count, length=0.0), streaks(32, count, radius=(0.2, 0.4))
+    moving.tail[:] = still.head
+    moving.head[2] = moving.tail[2] - 30 * np.abs(moving.head[0])
+    return [still, moving]
 
 
 @pytest.mark.parametrize("falloff", FALLOFFS)
