@@ -1,7 +1,7 @@
 """An effect in Python: load a graph, cook it, or take its particles and pictures.
 
-    effect = graphfx.load("snow.json")
-    effect.cook("out")
+effect = graphfx.load("snow.json")
+effect.cook("out")
 """
 
 from __future__ import annotations
@@ -61,15 +61,23 @@ class Effect:
         """All frames of the graph."""
         return list(range(self.flat.time.first, self.flat.time.last + 1))
 
-    def cook(self, out: str | Path = ".", frames: Iterable[int] | None = None, threads: int | None = None,
-             report: Callable[[FrameReport], None] | None = None, limits: CookLimits | None = None) -> list[Path]:
+    def cook(
+        self,
+        out: str | Path = ".",
+        frames: Iterable[int] | None = None,
+        threads: int | None = None,
+        report: Callable[[FrameReport], None] | None = None,
+        limits: CookLimits | None = None,
+    ) -> list[Path]:
         """Simulate and write the images of the frames (all, unless told); return the files written.
 
         `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
         check_limits(self.plan, limits or CookLimits())
         written: list[Path] = []
-        for made in self._cooked(Path(out), sorted(set(frames)) if frames is not None else self.frames, threads or available_threads()):
+        for made in self._cooked(
+            Path(out), sorted(set(frames)) if frames is not None else self.frames, threads or available_threads()
+        ):
             written += made.files
             if report is not None:
                 report(made)
@@ -86,9 +94,14 @@ class Effect:
                 warming.wait()
             films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
             files = tuple(self._write(image, film, frame, out) for image, film in films)
-            yield FrameReport(frame, sum(particles.alive for particles in simulation.particles.values()),
-                              sum(film.fragments for _, film in films), sum(film.dropped for _, film in films),
-                              sum(particles.unfinished for particles in simulation.particles.values()), files)
+            yield FrameReport(
+                frame,
+                sum(particles.alive for particles in simulation.particles.values()),
+                sum(film.fragments for _, film in films),
+                sum(film.dropped for _, film in films),
+                sum(particles.unfinished for particles in simulation.particles.values()),
+                files,
+            )
 
     def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
         file = out / file_name(str(image.value("file")), self.flat.name, frame)
@@ -105,7 +118,9 @@ class Effect:
 
     def simulation(self, threads: int | None = None, reference: bool = False) -> Simulation:
         """Return a new simulation: on the block machine, or in plain Python, which defines what is right."""
-        executor: Executor = ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
+        executor: Executor = (
+            ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
+        )
         return Simulation(self.plan, executor, threads or 1)
 
     def simulate(self, frame: int, threads: int | None = None, reference: bool = False) -> dict[str, dict[str, np.ndarray]]:
@@ -114,8 +129,10 @@ class Effect:
         simulation = self.simulation(threads, reference)
         for _ in simulation.frames(frame):
             pass
-        return {path: {name: _columns(particles.store.column(name), particles.living()) for name in particles.store.columns}
-                for path, particles in simulation.particles.items()}
+        return {
+            path: {name: _columns(particles.store.column(name), particles.living()) for name in particles.store.columns}
+            for path, particles in simulation.particles.items()
+        }
 
     def film(self, frame: int, threads: int | None = None, image: int = 0) -> Film:
         """Return a frame of one of the graph's images as a film: linear, premultiplied float32."""

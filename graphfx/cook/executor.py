@@ -16,8 +16,17 @@ Arrays = Mapping[str, tuple[np.ndarray, ...]]
 class Executor(Protocol):
     """Runs programs over rows of columns."""
 
-    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
-            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+    def run(
+        self,
+        program: Program,
+        count: int,
+        listed: np.ndarray | None,
+        excluded: np.ndarray | None,
+        arrays: Arrays,
+        uniforms: Mapping[int, Any],
+        by_place: Arrays,
+        now: float,
+    ) -> np.ndarray:
         """Run over `count` rows, or those listed, less the excluded ones; return the rows rejected."""
         ...
 
@@ -38,8 +47,17 @@ class BlockExecutor:
             self._assembled[id(program)] = assemble(program, self.precision)
         return self._assembled[id(program)]
 
-    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
-            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+    def run(
+        self,
+        program: Program,
+        count: int,
+        listed: np.ndarray | None,
+        excluded: np.ndarray | None,
+        arrays: Arrays,
+        uniforms: Mapping[int, Any],
+        by_place: Arrays,
+        now: float,
+    ) -> np.ndarray:
         """Run on blocks of 256 rows, on all threads."""
         from graphfx.machine.run import NO_BITS, NO_ROWS, Rows, bits_of, run
 
@@ -54,15 +72,26 @@ class ReferenceExecutor:
     def __init__(self, precision: int = 32):
         self.precision = precision
 
-    def run(self, program: Program, count: int, listed: np.ndarray | None, excluded: np.ndarray | None, arrays: Arrays,
-            uniforms: Mapping[int, Any], by_place: Arrays, now: float) -> np.ndarray:
+    def run(
+        self,
+        program: Program,
+        count: int,
+        listed: np.ndarray | None,
+        excluded: np.ndarray | None,
+        arrays: Arrays,
+        uniforms: Mapping[int, Any],
+        by_place: Arrays,
+        now: float,
+    ) -> np.ndarray:
         """Run row by row."""
         left_out = set() if excluded is None else set(excluded.tolist())
         rejected = []
         for place, row in enumerate(range(count) if listed is None else listed.tolist()):
             if row in left_out:
                 continue
-            loaded = {name: self._read(name, column.type, arrays, by_place, row, place, now) for name, column in program.loads.items()}
+            loaded = {
+                name: self._read(name, column.type, arrays, by_place, row, place, now) for name, column in program.loads.items()
+            }
             values = run_particle(program, loaded, uniforms, self.precision)
             if program.rejects is not None and values.get(id(program.rejects)):
                 rejected.append(row)

@@ -22,8 +22,10 @@ def parse_frames(text: str, first: int, last: int) -> list[int]:
         if end < begin or step < 1:
             raise UsageError(f"--frames: '{part.strip()}' is empty; write the lesser frame first and a step of 1 or more")
         if begin < first or end > last:
-            raise UsageError(f"--frames: '{part.strip()}' goes beyond the graph's frames {first} to {last}; "
-                             "change time.frames in the graph to have more")
+            raise UsageError(
+                f"--frames: '{part.strip()}' goes beyond the graph's frames {first} to {last}; "
+                "change time.frames in the graph to have more"
+            )
         found.update(range(begin, end + 1, step))
     return sorted(found)
 

@@ -42,15 +42,22 @@ def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem |
     if count <= limits.particles:
         return None
     bytes_each = sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
-    return Problem(f"about {count:,.0f} particles would be alive at once, and the limit is {limits.particles:,}; "
-                   "lower the rate or the life, or allow more with --limit-particles",
-                   emitter.node.location, f"nodes.{emitter.path}",
-                   (f"they would take {count * bytes_each / 2**30:,.1f} GiB",))
+    return Problem(
+        f"about {count:,.0f} particles would be alive at once, and the limit is {limits.particles:,}; "
+        "lower the rate or the life, or allow more with --limit-particles",
+        emitter.node.location,
+        f"nodes.{emitter.path}",
+        (f"they would take {count * bytes_each / 2**30:,.1f} GiB",),
+    )
 
 
 def _too_large(image: ImagePlan, limits: CookLimits) -> Problem | None:
     width, height = (int(number) for number in image.value("size"))
     if width * height <= limits.pixels:
         return None
-    return Problem(f"a picture of {width} x {height} has {width * height:,} pixels, and the limit is {limits.pixels:,}; "
-                   "make it smaller, or allow more with --limit-pixels", image.node.location, f"nodes.{image.node.path}")
+    return Problem(
+        f"a picture of {width} x {height} has {width * height:,} pixels, and the limit is {limits.pixels:,}; "
+        "make it smaller, or allow more with --limit-pixels",
+        image.node.location,
+        f"nodes.{image.node.path}",
+    )

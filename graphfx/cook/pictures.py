@@ -55,8 +55,15 @@ def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening:
     tail = column("tail") if "tail" in store.columns and opening < time else None
     if tail is not None and reach < 1.0:
         tail = head + (tail - head) * np.float32(reach)
-    return Streaks(head=head, tail=tail, head_radius=column("radius"), head_color=column("color"), head_opacity=column("opacity"),
-                   share=1.0 if share is None or shown is None else share[shown].astype(np.float32), **look)
+    return Streaks(
+        head=head,
+        tail=tail,
+        head_radius=column("radius"),
+        head_color=column("color"),
+        head_opacity=column("opacity"),
+        share=1.0 if share is None or shown is None else share[shown].astype(np.float32),
+        **look,
+    )
 
 
 def _shares(particles: Particles, time: float, opening: float) -> np.ndarray | None:

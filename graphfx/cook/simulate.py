@@ -67,8 +67,16 @@ class Simulation:
         self.executor = executor
         self.clock = Clock(time.fps, time.first, time.preroll)
         self.particles = {
-            path: Particles(emitter, ProcessorSet({name: Column(type_) for name, type_ in emitter.attributes.columns.items()},
-                                                  plan.precision, limit_particles, threads), Births(emitter, self.clock.start))
+            path: Particles(
+                emitter,
+                ProcessorSet(
+                    {name: Column(type_) for name, type_ in emitter.attributes.columns.items()},
+                    plan.precision,
+                    limit_particles,
+                    threads,
+                ),
+                Births(emitter, self.clock.start),
+            )
             for path, emitter in plan.emitters.items()
         }
 
@@ -108,8 +116,17 @@ class Simulation:
     def _real(self) -> Any:
         return np.float32 if self.plan.precision == 32 else np.float64
 
-    def _run(self, program: Any, particles: Particles, count: int, listed: np.ndarray | None, excluded: np.ndarray | None,
-             uniforms: dict[int, Any], by_place: dict[str, tuple[np.ndarray, ...]], now: float) -> np.ndarray:
+    def _run(
+        self,
+        program: Any,
+        particles: Particles,
+        count: int,
+        listed: np.ndarray | None,
+        excluded: np.ndarray | None,
+        uniforms: dict[int, Any],
+        by_place: dict[str, tuple[np.ndarray, ...]],
+        now: float,
+    ) -> np.ndarray:
         store = particles.store
         names = {"birth" if name == "age" else name: name for name in (*program.loads, *program.stores)}
         arrays = {name: store.arrays(stored) for stored, name in names.items() if stored in store.columns}
@@ -134,7 +151,9 @@ class Simulation:
         if len(listed):
             self._own_time(particles, interval, listed, before, death)
 
-    def _own_time(self, particles: Particles, interval: Interval, listed: np.ndarray, before: int, death: np.ndarray | None) -> None:
+    def _own_time(
+        self, particles: Particles, interval: Interval, listed: np.ndarray, before: int, death: np.ndarray | None
+    ) -> None:
         plan = particles.plan
         assert plan.own is not None
         begin, end = np.zeros(len(listed)), np.full(len(listed), interval.length)
@@ -144,7 +163,9 @@ class Simulation:
             end = np.minimum(end, death[listed] - interval.start)
         unfinished = np.zeros(_blocks(len(listed)) * BLOCK, np.uint8)
         by_place = {"begin": (_padded(begin, self._real),), "end": (_padded(end, self._real),), "unfinished": (unfinished,)}
-        self._run(plan.own.program, particles, len(listed), listed, None, self._uniforms(plan.own, interval), by_place, interval.start)
+        self._run(
+            plan.own.program, particles, len(listed), listed, None, self._uniforms(plan.own, interval), by_place, interval.start
+        )
         particles.unfinished += int(unfinished[: len(listed)].sum())
 
     def _uniforms(self, made: FrameProgram, interval: Interval) -> dict[int, Any]:
@@ -156,8 +177,13 @@ class Simulation:
         for name, uniform in made.times.items():
             if isinstance(name, tuple):
                 kind, k = name
-                values[id(uniform)] = {"length": length, "half": length / 2, "start": k * length, "end": (k + 1) * length,
-                                       "middle": (k + 0.5) * length}[kind]
+                values[id(uniform)] = {
+                    "length": length,
+                    "half": length / 2,
+                    "start": k * length,
+                    "end": (k + 1) * length,
+                    "middle": (k + 0.5) * length,
+                }[kind]
             else:
                 values[id(uniform)] = {"opening": opening, "frame start": interval.start, "frame": interval.frame}[name]
         for k, steps in enumerate(made.steps):

@@ -37,8 +37,12 @@ def start() -> subprocess.Popen[bytes] | None:
     for listener in listeners:
         listener("the renderer")
     try:
-        return subprocess.Popen([sys.executable, "-m", "graphfx.cook.warm"], stdin=subprocess.DEVNULL,
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return subprocess.Popen(
+            [sys.executable, "-m", "graphfx.cook.warm"],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
     except OSError:
         return None
 

@@ -68,8 +68,9 @@ def is_open(a: Any, b: Any, distance: Any, step: Any, tolerance: Any, resolution
 
 
 @MOTION.function("vec3 vec3 float vec3 float float float float", "vec3 vec3 bool bool")
-def respond(position: Any, velocity: Any, distance: Any, normal: Any, resilience: Any, friction: Any, threshold: Any,
-            rest_speed: Any) -> Any:
+def respond(
+    position: Any, velocity: Any, distance: Any, normal: Any, resilience: Any, friction: Any, threshold: Any, rest_speed: Any
+) -> Any:
     """V' = (1 - mu) Vt - eps Vn at the contact, and the position put on the surface. [Sims 1990, 3.4.3]
 
     Friction does not act on a particle slower than `threshold` [m/s]. One that would leave more slowly than
@@ -90,5 +91,7 @@ def respond(position: Any, velocity: Any, distance: Any, normal: Any, resilience
 @MOTION.function("vec3 vec3 float vec3", "vec3 vec3")
 def slide(position: Any, velocity: Any, distance: Any, normal: Any) -> Any:
     """Put a particle that has sunk below a surface back on it, and take from its velocity what points into it."""
-    return (position - normal * minimum(distance, 0.0),
-            velocity - normal * where(distance < 0.0, minimum(dot(velocity, normal), 0.0), 0.0))
+    return (
+        position - normal * minimum(distance, 0.0),
+        velocity - normal * where(distance < 0.0, minimum(dot(velocity, normal), 0.0), 0.0),
+    )

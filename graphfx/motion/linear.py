@@ -36,7 +36,7 @@ def spin(position: Any, velocity: Any, rate: Any, dt: Any) -> Any:
     V' = V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2, and P' the integral of it.
     """
     angle = length(rate) * dt
-    s, c = sincos(angle)
+    _, c = sincos(angle)
     turned = cross(rate, velocity) * dt
     kept = rate * (dot(rate, velocity) * dt * dt)
     bow = cosinc(angle)
@@ -49,7 +49,7 @@ def spin(position: Any, velocity: Any, rate: Any, dt: Any) -> Any:
 def turn(velocity: Any, rate: Any, dt: Any) -> Any:
     """Turn a vector about w by |w| dt: V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2."""
     angle = length(rate) * dt
-    s, c = sincos(angle)
+    _, c = sincos(angle)
     return velocity * c + cross(rate, velocity) * (sinc(angle) * dt) + rate * (dot(rate, velocity) * dt * dt * cosinc(angle))
 
 

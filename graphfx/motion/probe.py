@@ -43,8 +43,11 @@ def probe(function: Callable[..., Any], arguments: tuple[str, ...], types: tuple
         fixed = {name: _random(type_, generator) for name, type_ in zip(arguments, types, strict=True)}
 
         def rate(position: Any, velocity: Any, fixed: dict[str, Any] = fixed) -> np.ndarray:
-            given = fixed | {name: Vec3(*map(np.float64, state)) for name, state in
-                             (("position", position), ("velocity", velocity)) if name in fixed}
+            given = fixed | {
+                name: Vec3(*map(np.float64, state))
+                for name, state in (("position", position), ("velocity", velocity))
+                if name in fixed
+            }
             with np.errstate(all="ignore"):
                 return _array(function(*(given[name] for name in arguments)))
 

@@ -6,7 +6,8 @@ from graphfx.graph.flat import FlatNode
 from graphfx.motion import basic
 from graphfx.node import ATTRIBUTES
 from graphfx.plan.liveness import Attributes, birth_order, set_value
-from graphfx.plan.values import Rate, Scope, ValueWriter, lane_type, rate_of
+from graphfx.plan.rates import Rate, Scope, lane_type, rate_of
+from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Column, Operand, Program
 
 
@@ -30,7 +31,9 @@ def write_birth(emitter: FlatNode, attributes: Attributes, seed: int, precision:
 
 
 def as_column(builder: Builder, operand: Operand, type_: str, name: str) -> Column:
-    """Return an operand as a column of its own."""
+    """Return an operand as a column that can be stored."""
+    if isinstance(operand, Column):
+        return operand
     function = basic.copy_vector if type_ == "vec3" else basic.copy_number
     made = Column(name, type_)
     builder.call(function, operand, into=made)

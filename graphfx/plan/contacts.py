@@ -47,16 +47,19 @@ class Contacts:
             event = inside if event is None else builder.call(basic.either, event, inside, name="event")
         return event
 
-    def own_step(self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column,
-                 resting: Column | None) -> None:
+    def own_step(
+        self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column, resting: Column | None
+    ) -> None:
         """Write one step that stops at the first contact; `step` becomes the time that was used."""
         whole = moment_of(builder, step)
         if self.motion.method == "sims" or not self.surfaces:
             self.motion.step(whole, state)
             self.main_step(whole, state, None)
             return
-        first = {"position": builder.call(basic.copy_vector, state.position, name="first position"),
-                 "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity")}
+        first = {
+            "position": builder.call(basic.copy_vector, state.position, name="first position"),
+            "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),
+        }
         starts = [self._distance(surface, whole, state) for surface in self.surfaces]
         self.motion.step(whole, state)
         ends = [self._distance(surface, whole, state)[0] for surface in self.surfaces]
@@ -99,13 +102,23 @@ class Contacts:
         builder.call(basic.copy_vector, first["position"], into=state.position)  # type: ignore[arg-type]
         builder.call(basic.copy_vector, first["velocity"], into=state.velocity)  # type: ignore[arg-type]
 
-    def _search(self, surface: Mover, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State,
-                first: dict[str, Column], start: tuple[Column, Column], end: Column, step: Column) -> Column:
+    def _search(
+        self,
+        surface: Mover,
+        builder: Builder,
+        moment_of: Callable[[Builder, Column], Moment],
+        state: State,
+        first: dict[str, Column],
+        start: tuple[Column, Column],
+        end: Column,
+        step: Column,
+    ) -> Column:
         """Write the search for the instant of contact; return its column."""
         builder.note = f"{surface.node.path}: find the contact"
         tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         a, at_a, b, at_b, touching, at_once = builder.call(
-            contact.start_search, start[0], end, start[1], first["velocity"], step, tolerance, name="bracket")
+            contact.start_search, start[0], end, start[1], first["velocity"], step, tolerance, name="bracket"
+        )
         time = builder.call(basic.copy_number, a, name="time of contact")
         side = builder.call(basic.difference, a, a, name="side")
         searching = builder.call(basic.but_not, builder.mask, at_once, name="searching")
@@ -120,8 +133,15 @@ class Contacts:
         inner.call(contact.is_open, a, b, distance, step, tolerance, self.resolution, into=searching)
         return time
 
-    def _answer(self, surface: Mover, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State,
-                time: Column, resting: Column | None) -> Column:
+    def _answer(
+        self,
+        surface: Mover,
+        builder: Builder,
+        moment_of: Callable[[Builder, Column], Moment],
+        state: State,
+        time: Column,
+        resting: Column | None,
+    ) -> Column:
         """Write what a surface does to the particles that meet it; return which of them slide."""
         moment = moment_of(builder, time)
         distance, normal = self._distance(surface, moment, state)

@@ -7,7 +7,8 @@ from typing import Any
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.values import Value
 from graphfx.math import Vec3
-from graphfx.plan.values import Rate, Scope, StepValues, ValueWriter, find_step_values, rate_of
+from graphfx.plan.rates import Rate, Scope, rate_of
+from graphfx.plan.values import StepValues, ValueWriter, find_step_values
 from graphfx.program import Uniform
 
 
@@ -30,8 +31,12 @@ def timed_value(tree: Any, time: float, frame: int, precision: int = 64, seed: i
     scope = particle_free_scope(seed)
     if rate_of(tree, scope) == Rate.PARTICLE:
         place = tree if isinstance(tree, Value) else None
-        raise GraphError(Problem("this value must be one for all: it may depend on time, not on particles",
-                                 *((place.location, place.path) if place else ())))
+        raise GraphError(
+            Problem(
+                "this value must be one for all: it may depend on time, not on particles",
+                *((place.location, place.path) if place else ()),
+            )
+        )
     steps = StepValues()
     operand = ValueWriter(steps.builder, scope, {}, steps, precision).operand(tree)
     value = operand.value if isinstance(operand, Uniform) and operand.value is not None else None

@@ -31,31 +31,63 @@ def plan_data(plan: Plan) -> dict[str, Any]:
     """Return what a plan says, as plain data."""
     flat = plan.flat
     nodes = [{"path": path, "type": flat.nodes[path].node_type.name, "kept": True} for path in plan.schedule.order]
-    nodes += [{"path": path, "type": flat.nodes[path].node_type.name, "kept": False, "reason": reason}
-              for path, reason in plan.schedule.dropped.items()]
-    time = {"fps": flat.time.fps, "frames": [flat.time.first, flat.time.last], "preroll": flat.time.preroll,
-            "substeps": flat.time.substeps, "precision": plan.precision}
-    return {"graph": flat.name, "seed": flat.seed, "time": time, "nodes": nodes,
-            "images": [_image_data(image) for image in plan.images],
-            "emitters": [_emitter_data(emitter, plan.precision) for emitter in plan.emitters.values()]}
+    nodes += [
+        {"path": path, "type": flat.nodes[path].node_type.name, "kept": False, "reason": reason}
+        for path, reason in plan.schedule.dropped.items()
+    ]
+    time = {
+        "fps": flat.time.fps,
+        "frames": [flat.time.first, flat.time.last],
+        "preroll": flat.time.preroll,
+        "substeps": flat.time.substeps,
+        "precision": plan.precision,
+    }
+    return {
+        "graph": flat.name,
+        "seed": flat.seed,
+        "time": time,
+        "nodes": nodes,
+        "images": [_image_data(image) for image in plan.images],
+        "emitters": [_emitter_data(emitter, plan.precision) for emitter in plan.emitters.values()],
+    }
 
 
 def _image_data(image: ImagePlan) -> dict[str, Any]:
-    return {"path": image.node.path, "size": [int(number) for number in image.value("size")], "camera": image.camera.path,
-            "draws": [path for path, _ in image.streams]}
+    return {
+        "path": image.node.path,
+        "size": [int(number) for number in image.value("size")],
+        "camera": image.camera.path,
+        "draws": [path for path, _ in image.streams],
+    }
 
 
 def _emitter_data(emitter: EmitterPlan, precision: int) -> dict[str, Any]:
     attributes = emitter.attributes
-    columns = [{"name": name, "type": type_, "bytes": bytes_of(type_, precision), "reason": attributes.reasons[name]}
-               for name, type_ in attributes.columns.items()]
-    omitted = {name: f"{shown(value.value)} for all" if isinstance(value, Literal) else "nothing reads it"
-               for name, value in attributes.constants.items()}
+    columns = [
+        {"name": name, "type": type_, "bytes": bytes_of(type_, precision), "reason": attributes.reasons[name]}
+        for name, type_ in attributes.columns.items()
+    ]
+    omitted = {
+        name: f"{shown(value.value)} for all" if isinstance(value, Literal) else "nothing reads it"
+        for name, value in attributes.constants.items()
+    }
     made = [FrameProgram(emitter.birth, []), *(program for program in (emitter.main, emitter.own) if program is not None)]
-    return {"path": emitter.path, "method": emitter.method, "reason": emitter.reason,
-            "bytes": sum(column["bytes"] for column in columns), "attributes": columns, "not_stored": omitted,
-            "programs": [{"name": program.program.name, "instructions": sum(1 for _ in program.program.walk()),
-                          "lines": ProgramListing(program.program).lines(program)} for program in made]}
+    return {
+        "path": emitter.path,
+        "method": emitter.method,
+        "reason": emitter.reason,
+        "bytes": sum(column["bytes"] for column in columns),
+        "attributes": columns,
+        "not_stored": omitted,
+        "programs": [
+            {
+                "name": program.program.name,
+                "instructions": sum(1 for _ in program.program.walk()),
+                "lines": ProgramListing(program.program).lines(program),
+            }
+            for program in made
+        ],
+    }
 
 
 def listing(plan: Plan, source: Callable[[Function], str] | None = None) -> str:
@@ -136,8 +168,10 @@ class ProgramListing:
     def lines(self, made: FrameProgram | None = None) -> list[str]:
         """Return the program: what it is given, its instructions, what it gives back."""
         program = self.program
-        listed = [*([f"given   {', '.join(map(self.name, program.uniforms))}"] if program.uniforms else []),
-                  *([f"load    {', '.join(map(self.name, program.loads.values()))}"] if program.loads else [])]
+        listed = [
+            *([f"given   {', '.join(map(self.name, program.uniforms))}"] if program.uniforms else []),
+            *([f"load    {', '.join(map(self.name, program.loads.values()))}"] if program.loads else []),
+        ]
         if made is not None and made.steps and made.steps[0].exports:
             listed += self._step_lines(made)
         listed += self._body(program.body, "")

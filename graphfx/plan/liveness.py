@@ -8,7 +8,7 @@ from typing import Any
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Literal, Name, Node, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, INFINITY
-from graphfx.plan.values import Rate, Scope, rate_of
+from graphfx.plan.rates import Rate, Scope, rate_of
 
 
 def names_in(tree: Any) -> set[str]:
@@ -23,7 +23,9 @@ def names_in(tree: Any) -> set[str]:
 
 def draws_in(tree: Any) -> bool:
     """Return whether a value draws random numbers for each particle."""
-    own = isinstance(tree, Random) or (isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved)
+    own = isinstance(tree, Random) or (
+        isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
+    )
     return (own and tree.per != "graph") or any(draws_in(part) for part in children(tree))
 
 
@@ -51,14 +53,16 @@ def _values_of(node: FlatNode) -> list[Value]:
     return [*node.arguments.values(), *([node.only] if node.only is not None else [])]
 
 
-def find_attributes(emitter: FlatNode, operators: list[FlatNode], drawn: set[str], motion_blur: bool, prune: bool = True) -> Attributes:
+def find_attributes(
+    emitter: FlatNode, operators: list[FlatNode], drawn: set[str], motion_blur: bool, prune: bool = True
+) -> Attributes:
     """Decide what is stored. `drawn` are the attributes that the renderer reads; without `prune`, all are stored."""
     written = {name for node in operators for name in node.node_type.writes}
     if any(node.node_type.role == "surface" for node in operators):
         written |= {"position", "velocity"}
     readers = {name: "the renderer" for name in drawn}
     for node in operators:
-        for name in (set(node.node_type.reads) | {n for value in _values_of(node) for n in names_in(value)}):
+        for name in set(node.node_type.reads) | {n for value in _values_of(node) for n in names_in(value)}:
             readers.setdefault(name, node.path)
     moving = set_value(emitter, "velocity")
     moves = "velocity" in written or not (isinstance(moving, Literal) and not any(moving.value))
@@ -72,7 +76,9 @@ def find_attributes(emitter: FlatNode, operators: list[FlatNode], drawn: set[str
     return _sort_out(emitter, operators, written, readers, motion_blur)
 
 
-def _sort_out(emitter: FlatNode, operators: list[FlatNode], written: set[str], readers: dict[str, str], motion_blur: bool) -> Attributes:
+def _sort_out(
+    emitter: FlatNode, operators: list[FlatNode], written: set[str], readers: dict[str, str], motion_blur: bool
+) -> Attributes:
     found = Attributes()
     scope = Scope(0, "", None, None, lambda name: name in written or _varies(emitter, name))  # type: ignore[arg-type]
 
@@ -91,8 +97,14 @@ def _sort_out(emitter: FlatNode, operators: list[FlatNode], written: set[str], r
     return found
 
 
-def _add_hidden(found: Attributes, emitter: FlatNode, operators: list[FlatNode], readers: dict[str, str], motion_blur: bool,
-                lives_differ: bool) -> None:
+def _add_hidden(
+    found: Attributes,
+    emitter: FlatNode,
+    operators: list[FlatNode],
+    readers: dict[str, str],
+    motion_blur: bool,
+    lives_differ: bool,
+) -> None:
     life = set_value(emitter, "life")
     mortal = lives_differ or not (isinstance(life, Literal) and life.value == INFINITY)
     if lives_differ:

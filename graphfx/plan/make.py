@@ -101,8 +101,11 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     nodes = flat.nodes
     images = [_image(nodes[path], schedule, flat) for path in schedule.order if nodes[path].node_type.role == "image"]
-    emitters = {path: _emitter(nodes[path], schedule, flat, images, prune) for path in schedule.order
-                if nodes[path].node_type.role == "emit"}
+    emitters = {
+        path: _emitter(nodes[path], schedule, flat, images, prune)
+        for path in schedule.order
+        if nodes[path].node_type.role == "emit"
+    }
     return Plan(flat, schedule, emitters, images)
 
 
@@ -116,8 +119,11 @@ def _image(node: FlatNode, schedule: Schedule, flat: FlatGraph) -> ImagePlan:
 
 
 def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]:
-    return [flat.nodes[name] for name in schedule.order
-            if flat.nodes[name].node_type.kind == "operators" and path in schedule.upstream(name)]
+    return [
+        flat.nodes[name]
+        for name in schedule.order
+        if flat.nodes[name].node_type.kind == "operators" and path in schedule.upstream(name)
+    ]
 
 
 def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan], prune: bool) -> EmitterPlan:
@@ -132,9 +138,22 @@ def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[I
     writer = FrameWriter(node, attributes, motion, flat.seed, flat.time.precision, flat.time.substeps)
     moves = bool(movers) or has_velocity
     birth = write_birth(node, attributes, flat.seed, flat.time.precision)
-    opening = min(int((1 - shutter) * flat.time.substeps), flat.time.substeps - 1) if shutter > 0 and "tail" in attributes.columns else -1
-    return EmitterPlan(node, operators, attributes, method, reason, birth, writer.main(opening) if moves else None,
-                       writer.own(opening >= 0) if moves else None, motion)
+    opening = (
+        min(int((1 - shutter) * flat.time.substeps), flat.time.substeps - 1)
+        if shutter > 0 and "tail" in attributes.columns
+        else -1
+    )
+    return EmitterPlan(
+        node,
+        operators,
+        attributes,
+        method,
+        reason,
+        birth,
+        writer.main(opening) if moves else None,
+        writer.own(opening >= 0) if moves else None,
+        motion,
+    )
 
 
 def _nonzero(value: Value | None) -> bool:
@@ -145,7 +164,11 @@ def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
     """Return how the motion is computed, and why: the most exact form that the operators allow."""
     asked = flat.time.method
     if asked not in METHODS:
-        raise GraphError(Problem(f"method '{asked}' is not carried out by this version; choose one of {', '.join(METHODS)}", path="time.method"))
+        raise GraphError(
+            Problem(
+                f"method '{asked}' is not carried out by this version; choose one of {', '.join(METHODS)}", path="time.method"
+            )
+        )
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
     inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]
@@ -153,7 +176,9 @@ def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
     if not inner:
         return "exact", f"all motion is linear ({names or 'free flight'}): one exact step"
     if asked == "exact":
-        raise GraphError(Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method"))
+        raise GraphError(
+            Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")
+        )
     return "strang", f"flows that do not commute ({names}): composed symmetrically, second order"
 
 

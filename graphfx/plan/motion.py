@@ -11,7 +11,8 @@ from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Name
 from graphfx.motion import basic, linear
 from graphfx.motion.probe import LinearForm, probe
-from graphfx.plan.values import Rate, ValueWriter, depends_on_time, folded_call, node_function, rate_of
+from graphfx.plan.rates import Rate, depends_on_time, rate_of
+from graphfx.plan.values import ValueWriter, folded_call, node_function
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 
 X_AXIS, Y_AXIS = Uniform("(1, 0, 0)", "vec3", (1.0, 0.0, 0.0)), Uniform("(0, 1, 0)", "vec3", (0.0, 1.0, 0.0))
@@ -77,8 +78,14 @@ def mover_of(node: FlatNode) -> Mover:
     if node.node_type.role == "linear" and node.node_type.writes == ("velocity",):
         form = probe(function.body, node.node_type.arguments, function.arguments)
     if node.node_type.role not in ("linear", "flow", "acceleration", "surface"):
-        raise GraphError(Problem(f"operators of the kind '{node.node_type.role}' are not carried out by this version",
-                                 node.location, node.path, (f"declared in {node.node_type.location.file}",)))
+        raise GraphError(
+            Problem(
+                f"operators of the kind '{node.node_type.role}' are not carried out by this version",
+                node.location,
+                node.path,
+                (f"declared in {node.node_type.location.file}",),
+            )
+        )
     return Mover(node, function, form)
 
 
@@ -207,7 +214,9 @@ class Motion:
                 first, second = evaluate(X_AXIS), evaluate(Y_AXIS) if mover.form.turning else None
                 if zero is not None:
                     first = folded_call(builder, precision, basic.difference_of_vectors, first, zero)
-                    second = folded_call(builder, precision, basic.difference_of_vectors, second, zero) if second is not None else None
+                    second = (
+                        folded_call(builder, precision, basic.difference_of_vectors, second, zero) if second is not None else None
+                    )
                 if mover.form.damping:
                     terms["damping"] = folded_call(builder, precision, basic.damping_of, first, name="damping")
                 if second is not None:
@@ -236,7 +245,11 @@ class Motion:
             for name, term in self._terms(mover, moment, state).items():
                 before = getattr(total, name)
                 function = basic.sum_of_vectors if term.type == "vec3" else basic.sum_of_numbers
-                summed = term if before is None else folded_call(moment.builder, moment.writer.precision, function, before, term, name=name)
+                summed = (
+                    term
+                    if before is None
+                    else folded_call(moment.builder, moment.writer.precision, function, before, term, name=name)
+                )
                 setattr(total, name, summed)
         return total
 
@@ -286,6 +299,3 @@ class Motion:
             builder.call(linear.turn, velocity, terms["turning"], moment.dt, into=velocity)  # type: ignore[arg-type]
         if "applied" in terms:
             builder.call(basic.advance, state.position, terms["applied"], moment.dt, into=state.position)  # type: ignore[arg-type]
-
-
-__all__ = ["Coefficients", "Moment", "Motion", "Mover", "State", "mover_of"]

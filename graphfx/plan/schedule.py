@@ -47,8 +47,10 @@ class Schedule:
 def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Schedule:
     """Drop what does nothing or is not needed, and order the rest; ties keep the document's order."""
     dropped = {path: reason for path, node in flat.nodes.items() if (reason := _idle(node, flat, precision, prune))}
-    through = {path: tuple(source for given in node.sources for source in _pass_over(given, flat, dropped))
-               for path, node in flat.nodes.items()}
+    through = {
+        path: tuple(source for given in node.sources for source in _pass_over(given, flat, dropped))
+        for path, node in flat.nodes.items()
+    }
     edges = networkx.DiGraph()
     edges.add_nodes_from(flat.nodes)
     for path, node in flat.nodes.items():

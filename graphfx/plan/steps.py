@@ -13,12 +13,13 @@ from typing import Any
 
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Value
-from graphfx.motion import basic, contact
+from graphfx.motion import basic
 from graphfx.node import ATTRIBUTES
 from graphfx.plan.contacts import Contacts
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Moment, Motion, State
-from graphfx.plan.values import Scope, StepValues, ValueWriter, lane_type
+from graphfx.plan.rates import Scope, lane_type
+from graphfx.plan.values import StepValues, ValueWriter
 from graphfx.program import Builder, Column, Operand, Program, Uniform
 
 MOST_CONTACTS = 100
@@ -58,7 +59,9 @@ class FrameWriter:
         tail = Column("tail", "vec3")
         if opening_step >= 0 and resting is not None:
             builder.call(basic.copy_vector, state.position, into=tail)
-        active = builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving")) if resting is not None else builder
+        active = (
+            builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving")) if resting is not None else builder
+        )
         contacts = Contacts(self.motion, self.precision)
         event: Column | None = None
         for k in range(self.substeps):
@@ -110,8 +113,17 @@ class FrameWriter:
             made.program.stores["unfinished"] = unfinished
         return made
 
-    def _own_step(self, inner: Builder, made: FrameProgram, state: State, now: Column, finish: Column, start: Operand,
-                  resting: Column | None, tail: Column | None) -> None:
+    def _own_step(
+        self,
+        inner: Builder,
+        made: FrameProgram,
+        state: State,
+        now: Column,
+        finish: Column,
+        start: Operand,
+        resting: Column | None,
+        tail: Column | None,
+    ) -> None:
         """Write one turn of the loop: go to the end of the step, or to the first contact on the way."""
         step = inner.call(basic.difference, finish, now, name="step")
         before = inner.call(basic.copy_vector, state.position, name="before")
@@ -132,8 +144,13 @@ class FrameWriter:
 
     def _scope(self, builder: Builder, state_read: Any) -> Scope:
         columns = self.attributes.columns
-        return Scope(self.seed, self.emitter.path, state_read, lambda: builder.load("id", "id"),
-                     lambda name: name in columns or name in ("age", "normalized_age"))
+        return Scope(
+            self.seed,
+            self.emitter.path,
+            state_read,
+            lambda: builder.load("id", "id"),
+            lambda name: name in columns or name in ("age", "normalized_age"),
+        )
 
     def _state(self, builder: Builder, made: FrameProgram) -> State:
         columns = self.attributes.columns
@@ -178,9 +195,11 @@ class FrameWriter:
                 halves.append(builder.call(basic.half, dt, name="half"))
             return halves[0]
 
-        lane = _LazyClock(lambda: builder.call(basic.sum_of_numbers, then, half(), name="middle"),
-                          lambda middle: builder.call(basic.sum_of_numbers, start, middle, name="time"),
-                          lambda: self._time(builder, made, "frame"))
+        lane = _LazyClock(
+            lambda: builder.call(basic.sum_of_numbers, then, half(), name="middle"),
+            lambda middle: builder.call(basic.sum_of_numbers, start, middle, name="time"),
+            lambda: self._time(builder, made, "frame"),
+        )
         state = self._state(builder, made)
         scope = self._scope(builder, self._reader(builder, made, state, lane.middle))
         return Moment(builder, dt, half, self._share(ValueWriter(builder, scope, lane, None, self.precision)))
@@ -223,6 +242,3 @@ class _LazyClock(dict[str, Operand]):
     def __missing__(self, name: str) -> Operand:
         self[name] = self._make_time(self.middle()) if name == "time" else self._make_frame()
         return self[name]
-
-
-__all__ = ["MOST_CONTACTS", "FrameProgram", "FrameWriter", "contact"]

@@ -6,62 +6,19 @@ reference path; what differs by particle becomes instructions on block columns.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from enum import IntEnum
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from graphfx.graph.values import Call, Expression, Keys, Literal, Name, Node, Ramp, Random, Value, children
+from graphfx.graph.values import Call, Expression, Keys, Literal, Name, Node, Ramp, Random, Value
 from graphfx.math.random import key_of
-from graphfx.node import NUMERIC_TYPES
 from graphfx.plan import arithmetic
 from graphfx.plan.arithmetic import function_for
+from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, identity_of, lane_type, rate_of
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 from graphfx.program.reference import execute
-
-
-class Rate(IntEnum):
-    """How often a value is found."""
-
-    CONSTANT = 0
-    STEP = 1
-    PARTICLE = 2
-
-
-LANE_TYPES = {"float": "float", "int": "float", "bool": "bool"} | {
-    name: "vec3" for name, size in NUMERIC_TYPES.items() if size == 3
-}
-"""The lane type in which a parameter type is computed."""
-
-CLOCK_NAMES = ("time", "frame")
-
-
-def lane_type(name: str) -> str:
-    """Return the lane type of a parameter or attribute type; other types have none."""
-    return LANE_TYPES.get(name, name)
-
-
-def literal(value: Value) -> Any:
-    """Return what a literal holds."""
-    assert isinstance(value, Literal)
-    return value.value
-
-
-@dataclass
-class Scope:
-    """What names mean where a value stands.
-
-    `attributes` finds the operand of an attribute, or None where it is not stored; `identity` is the
-    column of particle ids, `life` the number of the particle's life, `frame` the frame's number as a word.
-    """
-
-    seed: int
-    emitter: str
-    attribute: Callable[[str], Operand]
-    identity: Callable[[], Column]
-    per_particle: Callable[[str], bool]
 
 
 @dataclass
@@ -70,36 +27,11 @@ class StepValues:
 
     builder: Builder = field(default_factory=lambda: Builder.begin("step values"))
     exports: list[tuple[Uniform, Operand]] = field(default_factory=list)
+    writer: ValueWriter | None = None
 
     def clock(self, name: str) -> Column:
         """Return the column of `time`, `frame` or `dt`."""
         return self.builder.load(name, "float")
-
-
-def rate_of(tree: Any, scope: Scope) -> Rate:
-    """Return how often a value, or a part of an expression, must be found."""
-    own = Rate.CONSTANT
-    if isinstance(tree, Name):
-        own = Rate.STEP if tree.name in CLOCK_NAMES else Rate.PARTICLE if scope.per_particle(tree.name) else Rate.CONSTANT
-    elif isinstance(tree, Keys):
-        own = Rate.STEP
-    elif isinstance(tree, Random):
-        own = Rate.CONSTANT if tree.per == "graph" else Rate.PARTICLE
-    elif isinstance(tree, Node) and tree.node_type is not None:
-        reserved = tree.node_type.reserved
-        if "draw" in reserved and tree.per != "graph":
-            own = Rate.PARTICLE
-        own = max(own, *(rate_of(Name(name), scope) for name in (*tree.node_type.reads, *reserved) if name not in ("draw", "dt")),
-                  Rate.CONSTANT)
-    return max(own, *(rate_of(part, scope) for part in children(tree)), Rate.CONSTANT)
-
-
-def depends_on_time(tree: Any) -> bool:
-    """Return whether a value changes while a particle lives: by time, frame, age, or an attribute that moves."""
-    changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per == "frame")
-    reads = isinstance(tree, Node) and tree.node_type is not None and bool(
-        tree.node_type.reads or {"time", "frame"}.intersection(tree.node_type.reserved))
-    return changing or reads or any(depends_on_time(part) for part in children(tree))
 
 
 class ValueWriter:
@@ -109,8 +41,15 @@ class ValueWriter:
     `shared` holds what was found before for the whole program, by id of the value.
     """
 
-    def __init__(self, builder: Builder, scope: Scope, clock: dict[str, Operand], steps: StepValues | None, precision: int,
-                 rate: Rate = Rate.PARTICLE):
+    def __init__(
+        self,
+        builder: Builder,
+        scope: Scope,
+        clock: dict[str, Operand],
+        steps: StepValues | None,
+        precision: int,
+        rate: Rate = Rate.PARTICLE,
+    ):
         self.builder = builder
         self.scope = scope
         self.clock = clock
@@ -118,13 +57,14 @@ class ValueWriter:
         self.precision = precision
         self.rate = rate
         self.shared: dict[int, Operand] = {}
-        self._found: dict[int, tuple[Any, Operand]] = {}
+        self._found: dict[Any, Operand] = {}
 
     def operand(self, tree: Any) -> Operand:
-        """Return the operand that holds a value, a part of an expression, or a number."""
-        if id(tree) not in self._found:
-            self._found[id(tree)] = (tree, self._find(tree))
-        return self._found[id(tree)][1]
+        """Return the operand that holds a value, a part of an expression, or a number; the same for equal ones."""
+        key = identity_of(tree)
+        if key not in self._found:
+            self._found[key] = self._find(tree)
+        return self._found[key]
 
     def argument(self, value: Value) -> Operand:
         """Return the operand for a parameter: directions at unit length."""
@@ -156,8 +96,10 @@ class ValueWriter:
         return Uniform(_shown(plain), column.type, plain)
 
     def _step(self, tree: Any, steps: StepValues) -> Operand:
-        clock: dict[str, Operand] = {name: steps.clock(name) for name in CLOCK_NAMES}
-        column = ValueWriter(steps.builder, self.scope, clock, None, self.precision, Rate.STEP).operand(tree)
+        if steps.writer is None:
+            clock: dict[str, Operand] = {name: steps.clock(name) for name in CLOCK_NAMES}
+            steps.writer = ValueWriter(steps.builder, self.scope, clock, None, self.precision, Rate.STEP)
+        column = steps.writer.operand(tree)
         uniform = self.builder.uniform(_name_of(tree), column.type)
         steps.exports.append((uniform, column))
         return uniform
@@ -170,6 +112,8 @@ def _shown(value: Any) -> str:
 
 
 def _name_of(tree: Any) -> str:
+    if isinstance(tree, Name):
+        return tree.name
     path = getattr(tree, "path", "")
     return path.rpartition(".")[2] if path else getattr(tree, "function", "value")
 
@@ -257,7 +201,7 @@ class _Lowering:
         where = [self.writer.operand(float(position)) for position in positions]
         shape = {"smooth": arithmetic.smooth_between, "step": arithmetic.held_between}.get(getattr(tree, "interpolation", ""))
         if shape:
-            for first, last in zip(where, where[1:], strict=False):
+            for first, last in pairwise(where):
                 x = self.builder.call(shape, x, first, last)
         function = arithmetic.key_vector if type_ == "vec3" else arithmetic.key_number
         result: Operand = values[0]
@@ -291,7 +235,3 @@ def node_function(node_type: Any) -> Function:
         results = tuple(lane_type(name) for name in node_type.result)
         _functions[id(node_type)] = Function(node_type.name, node_type.function, arguments, results, node_type.branches)
     return _functions[id(node_type)]
-
-
-__all__ = ["LANE_TYPES", "Rate", "Scope", "StepValues", "ValueWriter", "depends_on_time", "find_step_values",
-           "folded_call", "lane_type", "literal", "node_function", "rate_of"]

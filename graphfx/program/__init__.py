@@ -17,6 +17,17 @@ from graphfx.program.instructions import (
 )
 
 __all__ = [
-    "COMPONENTS", "Builder", "Bundle", "Call", "Column", "Draw", "Function", "Instruction", "Loop", "Operand", "Program", "Uniform",
+    "COMPONENTS",
+    "Builder",
+    "Bundle",
+    "Call",
+    "Column",
+    "Draw",
+    "Function",
+    "Instruction",
+    "Loop",
+    "Operand",
+    "Program",
+    "Uniform",
     "function",
 ]

@@ -181,7 +181,9 @@ class Builder:
         self.program.uniforms.append(made)
         return made
 
-    def call(self, function: Function, *operands: Operand, into: tuple[Column, ...] | Column | None = None, name: str = "") -> Any:
+    def call(
+        self, function: Function, *operands: Operand, into: tuple[Column, ...] | Column | None = None, name: str = ""
+    ) -> Any:
         """Write a call; return its result column, or a tuple of them."""
         results = (into,) if isinstance(into, Column) else into
         if results is None:

@@ -63,7 +63,12 @@ def execute(body: list[Any], values: Values, precision: int = 32) -> None:
                 values.update((id(column), np.bool_(False)) for column in instruction.results if column.type == "bool")
         elif isinstance(instruction, Draw):
             identity = _read(instruction.identity, values, kind)
-            counter = (identity & 0xFFFFFFFF, identity >> 32, _read(instruction.life, values, kind), _read(instruction.cell, values, kind))
+            counter = (
+                identity & 0xFFFFFFFF,
+                identity >> 32,
+                _read(instruction.life, values, kind),
+                _read(instruction.cell, values, kind),
+            )
             _write(instruction.result, uniforms_of_words(philox4x32(counter, instruction.key), kind), values, kind)
         else:
             _call(instruction, values, kind)
