@@ -77,24 +77,24 @@ class AttributeReader:
         ordered: dict[str, Value] = {}
         trail: list[str] = []
 
-        def visit(name: str) -> bool:
+        def visit(name: str) -> None:
             if name in ordered:
-                return True
+                return
             if name in trail:
                 cycle = [*trail[trail.index(name):], name]
-                what = (f"'{name}' reads itself, and at birth it has no value yet" if len(cycle) == 2
+                what = (f"'{name}' reads itself, and at birth it has no value yet; let it read others" if len(cycle) == 2
                         else f"these attributes read one another in a circle: {' -> '.join(cycle)}")
                 self.checking.complain(item.key_location(name), f"{entry.path}.set.{name}",
                                        what + "; give one of them a value of its own" * (len(cycle) > 2))
-                return False
+                return
             trail.append(name)
             others = reads[name] - ({name} if entry.role == "set" else set())
-            fine = all(visit(other) for other in sets if other in others)
+            for other in sets:
+                if other in others:
+                    visit(other)
             trail.pop()
             ordered[name] = sets[name]
-            return fine
 
         for name in sets:
-            if not visit(name):
-                return sets
+            visit(name)
         return ordered

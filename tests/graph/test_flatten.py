@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -81,6 +82,29 @@ def test_two_instances_of_a_group_draw_differently(library: Library) -> None:
     assert found == {"fall/push_twice/both/push": ["fall/push_twice/way"],
         "fall/push_twice/both/push_once/once": ["fall/push_twice/way"],
                      "fall/again/both/push": ["fall/again/way"], "fall/again/both/push_once/once": ["fall/again/way"]}
+
+
+def test_what_a_group_draws_itself_differs_by_instance(library: Library, tmp_path: Path) -> None:
+    """A draw, and a named value, inside a group is keyed by the instance, or by the seed_key of the instance."""
+    (tmp_path / "g.json").write_text(json.dumps(graph(
+        {"v": VORTEX | {"from": "p", "lift": {"expr": "share"}}}, values={"share": {"rand": [0, 1]}}, inputs={"p": {}},
+        outputs={"p": "v"})))
+    data = graph(stack({"type": "g"}, {"type": "g", "id": "b"}, {"type": "g", "id": "c", "seed_key": "old"}), use={"g": "g.json"})
+    assert all_seeds(flatten(document_of(data, folder=tmp_path), library)) == {
+        f"fall/{name}/v": [f"{key}/v/magnitude", f"{key}/values.share"]
+        for name, key in (("g", "fall/g"), ("b", "fall/b"), ("c", "old"))}
+
+
+@pytest.mark.parametrize("where", ["op", "stack", "group", "inner"])
+def test_one_disabled_place_disables_all_inside(where: str, library: Library, tmp_path: Path) -> None:
+    """An operator acts only if it, its stack, its group and that group's own stack are all enabled."""
+    off = {"enabled": False}
+    inner = {"s": {"type": "stack", "from": "p", "ops": [VORTEX | (off if where == "op" else {})],
+        **(off if where == "inner" else {})}}
+    (tmp_path / "g.json").write_text(json.dumps(graph(inner, inputs={"p": {}}, outputs={"p": "s"})))
+    nodes = stack({"type": "g"} | (off if where == "group" else {}), **(off if where == "stack" else {}))
+    found = flatten(document_of(graph(nodes, use={"g": "g.json"}), folder=tmp_path), library).nodes
+    assert (found["fall/g/s/vortex"].enabled, found["sky"].enabled) == (False, True)
 
 
 def test_a_named_value_is_one_draw_wherever_it_is_used(library: Library) -> None:
@@ -213,10 +237,12 @@ def test_what_is_the_same_for_all_is_computed_at_once(library: Library) -> None:
     values = {"half": {"expr": "param.wind / 2"}}
     nodes = stack(VORTEX | {"magnitude": {"expr": "-half * 3 + max(1, 2)"},
         "center": {"expr": "vec(1, 0, 0) * half + vec(0, 1, 0)"},
-                            "lift": {"expr": "half * time"}})
+                            "lift": {"expr": "half * time"},
+                            "range": {"expr": "3 if half > 1 else time"}})
     found = flat(graph(nodes, values=values, params={"wind": {"type": "float", "default": 4}}),
         library).nodes["fall/vortex"].arguments
     literals: list[Value] = [found["magnitude"], found["center"]]
+    assert found["range"].value == 3.0  # type: ignore[attr-defined]
     assert [value.value for value in literals] == [-4.0, (2.0, 1.0, 0.0)]  # type: ignore[attr-defined]
     assert isinstance(found["lift"], Expression)
 
