@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from graphfx.errors import GraphError, LimitError
+from graphfx.errors import GraphError
 from graphfx.graph.document import document_of, load_document
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
@@ -251,45 +251,6 @@ def test_division_by_zero_is_left_to_the_program(library: Library) -> None:
     """What is not finite is computed as IEEE arithmetic says, not by Python, which would raise."""
     found = flat(graph(stack(VORTEX | {"lift": {"expr": "1 / 0"}})), library).nodes["fall/vortex"].arguments["lift"]
     assert isinstance(found, Expression)
-
-
-def test_nodes_have_a_limit(library: Library) -> None:
-    """A graph may flatten to exactly as many nodes as the limit says."""
-    data = graph(stack(VORTEX, {"type": "push_twice"}), use={"push_twice": "groups/push_twice.json"})
-    assert len(flat(data, library, Limits(nodes=4)).nodes) == 4
-    with pytest.raises(LimitError, match="more than 3 nodes"):
-        flat(data, library, Limits(nodes=3))
-
-
-def test_values_that_double_at_each_name_are_refused(library: Library) -> None:
-    """Thirty names, each twice the last, would be a billion parts."""
-    values: dict[str, Any] = {"v0": {"expr": "age"}} | {f"v{i}": {"expr": f"v{i - 1} + v{i - 1}"} for i in range(1, 31)}
-    with pytest.raises(GraphError, match="the limits are 10,000 and 100"):
-        flat(graph(stack(VORTEX | {"lift": {"expr": "v30"}}), values=values), library)
-
-
-def test_groups_that_double_at_each_level_are_refused(library: Library, tmp_path: Path) -> None:
-    """Twenty levels of groups, each used twice, would be a million nodes."""
-    for level in range(20):
-        inner = f'"use": {{"g": "g{level + 1}.json"}},' if level < 19 else ""
-        kind = "g" if level < 19 else "vortex"
-        (tmp_path / f"g{level}.json").write_text(
-            f'{{"graphfx": 1, {inner} "inputs": {{"p": {{}}}}, "outputs": {{"p": "b"}}, '
-            f'"nodes": {{"a": {{"type": "{kind}", "from": "p"}}, "b": {{"type": "{kind}", "from": "a"}}}}}}')
-    data = graph(stack({"type": "g"}), use={"g": "g0.json"})
-    with pytest.raises(LimitError, match="more than 1,000"):
-        flatten(document_of(data, folder=tmp_path, limits=Limits(nodes=1000)), library)
-
-
-def test_groups_have_a_depth_limit(library: Library, tmp_path: Path) -> None:
-    """Groups may use groups exactly as deep as the limit says."""
-    for level in range(4):
-        use = f'"use": {{"g": "g{level + 1}.json"}}, ' if level < 3 else ""
-        (tmp_path / f"g{level}.json").write_text(f'{{"graphfx": 1, {use}"nodes": {{}}}}')
-    (tmp_path / "top.json").write_text('{"graphfx": 1, "use": {"g": "g0.json"}, "nodes": {}}')
-    flatten(load_document(tmp_path / "top.json", Limits(group_depth=5)), library)
-    with pytest.raises(GraphError, match="deeper than the limit of 4"):
-        flatten(load_document(tmp_path / "top.json", Limits(group_depth=4)), library)
 
 
 def test_the_hash_follows_what_is_said_not_its_layout(library: Library, tmp_path: Path) -> None:

@@ -30,7 +30,7 @@ WORDS = st.sampled_from([
 LEAVES = WORDS | st.none() | st.booleans() | st.integers(-3, 3) | st.floats() | st.text(max_size=6)
 PARTS = st.recursive(LEAVES, lambda part: st.lists(part, max_size=4) | st.dictionaries(WORDS, part, max_size=4), max_leaves=12)
 GENEROUS = settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
-    max_examples=150,
+    max_examples=80,
                     phases=(Phase.explicit, Phase.reuse, Phase.generate, Phase.shrink))
 
 

@@ -66,7 +66,8 @@ def test_the_operator_set_may_read_what_it_sets(library: Library) -> None:
     """`radius * 0.9` is the radius before; at birth there is none before."""
     sets = {"set": {"radius": {"expr": "radius * 0.9"}}}
     assert told({"a": {"type": "emit"}, "b": {"type": "set", "from": "a", **sets}}, library) == []
-    assert told({"a": {"type": "emit", **sets}}, library) == ["'radius' reads itself, and at birth it has no value yet; let it read others"]
+    assert told({"a": {"type": "emit", **sets}}, library) == [
+        "'radius' reads itself, and at birth it has no value yet; let it read others"]
 
 
 def test_values_of_an_emitter_are_its_own(library: Library) -> None:
