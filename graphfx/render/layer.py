@@ -60,22 +60,22 @@ register(exp2)
 class Local(NamedTuple):
     """A segment in a tile: float32, relative to the centre of the tile's first pixel."""
 
-    x: float
-    y: float
-    dx: float
-    dy: float
-    inverse: float
-    radius: float
-    radius_way: float
-    key: float
-    key_way: float
-    nearest: float
-    first: float
-    share: float
-    reach: float
-    rest: float
-    pace: float
-    kind: int
+    x: np.float32
+    y: np.float32
+    dx: np.float32
+    dy: np.float32
+    inverse: np.float32
+    radius: np.float32
+    radius_way: np.float32
+    key: np.float32
+    key_way: np.float32
+    nearest: np.float32
+    first: np.float32
+    share: np.float32
+    reach: np.float32
+    rest: np.float32
+    pace: np.float32
+    kind: np.int64
 
 
 @inner

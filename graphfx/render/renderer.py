@@ -70,25 +70,34 @@ def _project(
         float(head.near), float(head.far), head.perspective, width, height,
     )
     segments = empty_segments(sum(stream.count for stream in streams), any(stream.varies for stream in streams))
-    rows: list[np.ndarray] = []
+    rows: list[np.ndarray] = [np.empty(0, np.int64)]
     offset = dropped = 0
     for stream in streams:
-        columns = stream.columns()
-        look = Look(
-            *FALLOFFS[stream.falloff], -1.0 if stream.blend == "add" else 1.0, stream.streak == "exposed", stream.varies
-        )
-        bounds = ranges(stream.count, threads, PROJECTED)
-        results: list[tuple[int, int]] = [(0, 0)] * len(bounds)
-
-        def work(piece: int, start: int, stop: int, given: Any = (addresses(columns), view, look), offset: int = offset,
-                 results: list[tuple[int, int]] = results) -> None:
-            results[piece] = project(*given, start, stop, segments, offset)
-
-        parallel_ranges(work, bounds, threads)
-        rows += [np.arange(offset + start, offset + start + kept) for (start, _), (kept, _) in zip(bounds, results, strict=True)]
-        dropped += sum(lost for _, lost in results)
+        kept, lost = _project_stream(stream, view, segments, offset, threads)
+        rows += kept
+        dropped += lost
         offset += stream.count
-    return segments, np.concatenate(rows) if rows else np.empty(0, np.int64), dropped
+    return segments, np.concatenate(rows), dropped
+
+
+def _project_stream(
+    stream: Streaks, view: View, segments: Segments, offset: int, threads: int
+) -> tuple[list[np.ndarray], int]:
+    """Write a stream's segments from row `offset` on; return the rows written, in order, and the number dropped."""
+    columns = stream.columns()
+    table = addresses(columns)
+    sign = -1.0 if stream.blend == "add" else 1.0
+    look = Look(*FALLOFFS[stream.falloff], sign, stream.streak == "exposed", stream.varies)
+    bounds = ranges(stream.count, threads, PROJECTED)
+    results = [(0, 0)] * len(bounds)
+
+    def work(piece: int, start: int, stop: int) -> None:
+        results[piece] = project(table, view, look, start, stop, segments, offset)
+
+    parallel_ranges(work, bounds, threads)
+    firsts = [offset + start for start, _ in bounds]
+    rows = [np.arange(first, first + kept) for first, (kept, _) in zip(firsts, results, strict=True)]
+    return rows, sum(lost for _, lost in results)
 
 
 @compiled

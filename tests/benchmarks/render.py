@@ -34,6 +34,14 @@ def scene(count: int, streak: str, comets: bool = False, falloff: str = "linear"
     )
 
 
+def piercing(count: int) -> Streaks:
+    """Return streaks that reach through each other in depth, so that pending lists overflow."""
+    streaks = scene(count, "solid")
+    streaks.head[2] = 1.0
+    streaks.tail[2] = 101.0
+    return streaks
+
+
 CAMERA = Camera(
     position=(WIDTH / 2, HEIGHT / 2, 0.0), target=(WIDTH / 2, HEIGHT / 2, 1.0), up=(0.0, -1.0, 0.0),
     projection="orthographic", width_of_view=WIDTH, near=-10.0,
@@ -74,6 +82,7 @@ def main() -> None:
         for streak in ("solid", "exposed"):
             measure(f"{count} {streak}", scene(count, streak), CAMERA, threads)
         measure(f"{count} exposed perspective", scene(count, "exposed"), PERSPECTIVE, threads)
+        measure(f"{count} piercing", piercing(count), CAMERA, threads)
         measure(f"{count} exposed comets perspective", scene(count, "exposed", comets=True), PERSPECTIVE, threads)
 
 
