@@ -16,6 +16,10 @@ Arrays = Mapping[str, tuple[np.ndarray, ...]]
 class Executor(Protocol):
     """Runs programs over rows of columns."""
 
+    def prepare(self, program: Program) -> Any:
+        """Make ready to run a program, so that what is wrong with it shows before any work."""
+        ...
+
     def run(
         self,
         program: Program,
@@ -71,6 +75,9 @@ class ReferenceExecutor:
 
     def __init__(self, precision: int = 32):
         self.precision = precision
+
+    def prepare(self, program: Program) -> None:
+        """Do nothing: plain Python needs no preparation."""
 
     def run(
         self,

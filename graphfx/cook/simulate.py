@@ -82,6 +82,9 @@ class Simulation:
 
     def frames(self, last: int) -> Iterator[int]:
         """Simulate up to frame `last`, yielding each frame's number from the first on."""
+        for emitter in self.plan.emitters.values():
+            for program in emitter.programs:
+                self.executor.prepare(program)
         for particles in self.particles.values():
             self._give_birth(particles, particles.births.at_start(), self.clock.start)
         if self.clock.preroll == 0 and last >= self.clock.first:
@@ -185,7 +188,12 @@ class Simulation:
                     "middle": (k + 0.5) * length,
                 }[kind]
             else:
-                values[id(uniform)] = {"opening": opening, "frame start": interval.start, "frame": interval.frame}[name]
+                values[id(uniform)] = {
+                    "opening": opening,
+                    "frame start": interval.start,
+                    "frame": interval.frame,
+                    "frame word": interval.frame & 0xFFFFFFFF,
+                }[name]
         for k, steps in enumerate(made.steps):
             values |= find_step_values(steps, interval.start + (k + 0.5) * length, interval.frame, self.plan.precision)
         return values
