@@ -18,7 +18,7 @@ from numba.core.typing.templates import AbstractTemplate, infer_global, signatur
 from numba.extending import lower_builtin
 
 from graphfx.lanes.define import define
-from graphfx.lanes.types import Mask, Real, Word, constant, convert, joined
+from graphfx.lanes.types import Mask, Real, Word, constant, convert, joined, literal_lanes
 from graphfx.math import primitives
 
 BRANCH = (
@@ -107,6 +107,7 @@ define(primitives.split2, 1, _split2, lambda real: types.UniTuple(real, 2))
 
 
 @infer_global(bool)
+@infer_global(operator.not_)
 class _NoBranch(AbstractTemplate):
     def generic(self, args: Any, kws: Any) -> Any:
         if args and isinstance(args[0], Mask):
@@ -142,13 +143,14 @@ class _WhereRule(AbstractTemplate):
     def generic(self, args: Any, kws: Any) -> Any:
         if len(args) != 3 or not isinstance(args[0], (Mask, types.Boolean)):
             return None
-        if isinstance(args[1], Mask) and args[1] == args[2] == args[0]:
+        if isinstance(args[1], (Mask, types.Boolean)) and args[1] == args[2] == args[0]:
             return signature(args[1], *args)
-        real = joined(args[1:])
+        width = args[0].width if isinstance(args[0], Mask) else 1
+        real = joined(args[1:]) or literal_lanes(args[1:], width)
         if real is None:
             return None
-        if isinstance(args[0], Mask) and real.width == 1:
-            real = Real(real.dtype, args[0].width)
+        if real.width == 1:
+            real = Real(real.dtype, width)
         return signature(real, args[0], *(a if isinstance(a, Real) else real for a in args[1:]))
 
 
@@ -162,8 +164,8 @@ def _where_mask(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> i
     return builder.select(*values)
 
 
-lower_builtin(primitives.where, Mask, Mask, Mask)(_where_mask)
 for _condition in (Mask, types.Boolean):
+    lower_builtin(primitives.where, _condition, _condition, _condition)(_where_mask)
     lower_builtin(primitives.where, _condition, Real, Real)(_where)
 
 

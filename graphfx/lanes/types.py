@@ -26,7 +26,11 @@ def _vector(element: ir.Type, width: int) -> ir.Type:
 
 
 class Real(types.Type):
-    """`width` lanes of float32 or float64. Plain numbers that meet it take its precision."""
+    """`width` lanes of float32 or float64. Plain numbers that meet it take its precision.
+
+    Where literals alone meet, as in where(condition, 0.0, 1.0), the result is float64 lanes that are a literal
+    themselves: meeting float32 lanes they are rounded to float32, as a Python float is.
+    """
 
     def __init__(self, dtype: types.Float, width: int):
         self.dtype = dtype
@@ -58,8 +62,9 @@ class Real(types.Type):
         return self if isinstance(other, types.Number) else None
 
     def can_convert_from(self, context: Any, other: types.Type) -> Conversion | None:
-        """Accept any plain number."""
-        return Conversion.safe if isinstance(other, types.Number) else None
+        """Accept any plain number, and float64 lanes, which are literals where this is float32."""
+        literal = isinstance(other, Real) and not other.single and other.width in (1, self.width)
+        return Conversion.safe if literal or isinstance(other, types.Number) else None
 
 
 class Mask(types.Type):
@@ -95,6 +100,10 @@ class Vec3Type(types.Type):
         self.element = element
         super().__init__(f"Vec3({element})")
 
+    def can_convert_from(self, context: Any, other: types.Type) -> Conversion | None:
+        """Accept a vector whose elements convert."""
+        return self.element.can_convert_from(context, other.element) if isinstance(other, Vec3Type) else None
+
 
 @register_model(Real)
 @register_model(Mask)
@@ -129,11 +138,13 @@ def splat(builder: ir.IRBuilder, scalar: ir.Value, type_: ir.Type) -> ir.Value:
 
 
 def convert(context: Any, builder: ir.IRBuilder, value: ir.Value, source: types.Type, target: Real) -> ir.Value:
-    """Bring a number, or a `Real` of width 1, to `target`."""
+    """Bring a number, a `Real` of width 1, or float64 lanes that are literals, to `target`."""
     if source == target:
         return value
     if isinstance(source, Real):
-        return splat(builder, value, target.llvm)
+        if target.single and not source.single:
+            value = builder.fptrunc(value, _vector(ir.FloatType(), source.width))
+        return value if source.width == target.width else splat(builder, value, target.llvm)
     return splat(builder, context.cast(builder, value, source, target.dtype), target.llvm)
 
 
@@ -144,8 +155,14 @@ def _cast(context: Any, builder: ir.IRBuilder, source: types.Type, target: Real,
 
 
 def joined(arguments: Any) -> Real | None:
-    """Return the `Real` at which these meet, or None if there is none or one is no number."""
+    """Return the `Real` at which these meet: float32 if any is; None if there is none or one is no number."""
     reals = [argument for argument in arguments if isinstance(argument, Real)]
     if not reals or not all(isinstance(argument, (Real, types.Number)) for argument in arguments):
         return None
-    return max(reals, key=lambda real: real.width)
+    dtype = types.float32 if any(real.single for real in reals) else types.float64
+    return Real(dtype, max(real.width for real in reals))
+
+
+def literal_lanes(arguments: Any, width: int) -> Real | None:
+    """Return the type of lanes chosen or made from plain numbers alone, or None if one is something else."""
+    return Real(types.float64, width) if all(isinstance(argument, types.Number) for argument in arguments) else None

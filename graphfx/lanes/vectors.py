@@ -11,17 +11,17 @@ from typing import Any
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import lower_builtin, type_callable
+from numba.extending import lower_builtin, lower_cast, type_callable
 
 from graphfx.lanes.define import define_vector
-from graphfx.lanes.types import Mask, Real, Vec3Type, convert, joined
+from graphfx.lanes.types import Mask, Real, Vec3Type, convert, joined, literal_lanes
 from graphfx.math import primitives, vec3
 
 
 @type_callable(vec3.Vec3)
 def _type_vec3(context: Any) -> Any:
     def typer(x: Any, y: Any, z: Any) -> Any:
-        real = joined((x, y, z))
+        real = joined((x, y, z)) or literal_lanes((x, y, z), 1)
         return None if real is None else Vec3Type(real)
 
     return typer
@@ -33,6 +33,15 @@ def _make_vec3(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir
     for name, value, type_ in zip("xyz", values, sig.args, strict=True):
         setattr(proxy, name, convert(context, builder, value, type_, sig.return_type.element))
     return proxy._getvalue()
+
+
+@lower_cast(Vec3Type, Vec3Type)
+def _cast(context: Any, builder: ir.IRBuilder, source: Vec3Type, target: Vec3Type, value: ir.Value) -> ir.Value:
+    given = cgutils.create_struct_proxy(source)(context, builder, value=value)
+    made = cgutils.create_struct_proxy(target)(context, builder)
+    for name in "xyz":
+        setattr(made, name, convert(context, builder, getattr(given, name), source.element, target.element))
+    return made._getvalue()
 
 
 def _each(name: str) -> Any:
