@@ -154,10 +154,16 @@ def _located(function: Function, error: Exception) -> NodeError:
     source = function.body.__code__.co_filename
     lines = [int(line) for file, line in re.findall(r"at (\S+) \((\d+)\)", text) if file == source]
     lines += [int(line) for file, line in re.findall(r'File "([^"]+)", line (\d+)', text) if file == source]
-    line = lines[0] if lines else function.body.__code__.co_firstlineno
+    line = lines[0] if lines else _first_line(function)
     if BRANCH in text or isinstance(error, LaneBranchError):
         message = BRANCH
     else:
         found = re.findall(r"No implementation of function (.*?) found for signature:\s+>>> (.*)", text)
         message = f"no lane code for {found[-1][1].strip()}" if found else text.strip().splitlines()[-1]
     return NodeError(Problem(message, Location(source, line), function.name))
+
+
+def _first_line(function: Function) -> int:
+    """Return the line of a function's first statement: that of a body put into its kernel is its only one."""
+    code = function.body.__code__
+    return min((line for _, _, line in code.co_lines() if line and line > code.co_firstlineno), default=code.co_firstlineno)
