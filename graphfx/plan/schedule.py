@@ -80,7 +80,7 @@ def _idle(node: FlatNode, flat: FlatGraph, precision: int, prune: bool) -> str:
         return ""
     if node.during is not None:
         start, end = node.during
-        begin, finish = -flat.time.preroll, (flat.time.last - flat.time.first) / flat.time.fps
+        begin, finish = 0.0 - flat.time.preroll, (flat.time.last - flat.time.first) / flat.time.fps
         if end <= begin or start > finish or end <= start:
             return f"acts from {start:g} to {end:g} s, outside the simulated {begin:g} to {finish:g} s"
     if node.node_type.neutral and _is_neutral(node, precision):

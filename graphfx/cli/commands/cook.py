@@ -19,6 +19,7 @@ from graphfx.errors import EXIT_INTERRUPTED, OutputError
 
 if TYPE_CHECKING:
     from graphfx.cook.effect import Effect, FrameReport
+    from graphfx.cook.limits import CookLimits
 
 
 @click.command()
@@ -28,33 +29,50 @@ if TYPE_CHECKING:
 @parameters
 @click.option("--threads", type=click.IntRange(1, 256), metavar="N", help="Threads to use; all processors if not given.")
 @library
+@click.option("--limit-particles", type=click.IntRange(1), metavar="N", help="Particles of an emitter alive at once, at most.")
+@click.option("--limit-pixels", type=click.IntRange(1), metavar="N", help="Pixels of a picture, at most.")
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--json", "as_json", is_flag=True, help="Print a line of JSON for each frame, and one at the end.")
 @debug
 @click.pass_context
 def command(context: click.Context, graph: str, frames: str | None, out: str | None, parameters: dict[str, str],
-            threads: int | None, library: tuple[str, ...], dry_run: bool, as_json: bool) -> None:
+            threads: int | None, library: tuple[str, ...], limit_particles: int | None, limit_pixels: int | None,
+            dry_run: bool, as_json: bool) -> None:
     """Simulate GRAPH and write its frames."""
     from graphfx.lanes.host import use_wide_registers
 
     use_wide_registers()
     from graphfx.cook.effect import load
     from graphfx.cook.frames import parse_frames
+    from graphfx.cook.limits import CookLimits
 
+    given = {"particles": limit_particles, "pixels": limit_pixels}
+    limits = CookLimits(**{name: limit for name, limit in given.items() if limit is not None})
     effect = load(graph, library, parameters)
     wanted = parse_frames(frames, effect.frames[0], effect.frames[-1]) if frames is not None else effect.frames
-    cook = Cook(effect, wanted, Path("out") / effect.flat.name if out is None else Path(out), threads, as_json)
+    cook = Cook(effect, wanted, Path("out") / effect.flat.name if out is None else Path(out), threads, limits, as_json)
     if dry_run:
         cook.tell()
         return
     try:
         cook.run()
     except KeyboardInterrupt:
-        given = [part for name, value in parameters.items() for part in ("--set", f"{name}={value}")]
-        given += [part for folder in library for part in ("--library", folder)]
-        given += ["--threads", str(threads)] if threads is not None else []
-        cook.tell_how_to_go_on(["graphfx", "cook", graph, "--out", str(cook.out), *given])
+        cook.tell_how_to_go_on(["graphfx", "cook", graph, "--out", str(cook.out), *typed(context)])
         context.exit(EXIT_INTERRUPTED)
+
+
+def typed(context: click.Context) -> list[str]:
+    """Return the options of a cook as they would be typed again, without the frames and the folder."""
+    again: list[str] = []
+    for option in context.command.params:
+        value = context.params.get(option.name or "")
+        if option.name == "parameters":
+            again += [part for name, given in value.items() for part in ("--set", f"{name}={given}")]
+        elif option.name == "library":
+            again += [part for folder in value for part in ("--library", folder)]
+        elif option.name in ("threads", "limit_particles", "limit_pixels") and value is not None:
+            again += [option.opts[0], str(value)]
+    return again
 
 
 def ready(out: Path) -> None:
@@ -77,6 +95,7 @@ class Cook:
     frames: list[int]
     out: Path
     threads: int | None
+    limits: CookLimits
     as_json: bool
     done: list[int] = field(default_factory=list)
     dropped: int = 0
@@ -99,7 +118,7 @@ class Cook:
 
             listeners.append(progress.compiling)
             try:
-                files = self.effect.cook(self.out, self.frames, self.threads, report)
+                files = self.effect.cook(self.out, self.frames, self.threads, report, self.limits)
             finally:
                 listeners.remove(progress.compiling)
         seconds = time.monotonic() - started

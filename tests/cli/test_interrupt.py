@@ -1,0 +1,46 @@
+"""Ctrl-C: whole files, and the command to go on with."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import signal
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+from graphfx.cook.frames import parse_frames
+
+LAST = 5000
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C reaches processes otherwise there")
+def test_interrupt_leaves_whole_files(started: Callable[..., subprocess.Popen[str]], folder: Path) -> None:
+    """Stopped by Ctrl-C, a cook exits with 130; every file is whole, none is partial, and the printed command makes the rest."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["time"]["frames"] = [1, LAST]
+    (folder / "long.json").write_text(json.dumps(graph))
+    process = started("cook", "long.json", "--out", "long frames", "--set", "speed=2")
+    assert process.stderr is not None
+    for line in process.stderr:
+        if line.startswith("frame 4 "):
+            process.send_signal(signal.SIGINT)
+            break
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (130, "")
+    stopped, command = err.splitlines()[-2:]
+    done = int(re.fullmatch(r"stopped after frame (\d+); all files in long frames are whole. To go on:", stopped)[1])  # type: ignore[index]
+    files = sorted((folder / "long frames").iterdir())
+    assert len(files) in (done, done + 1)
+    assert [file.name for file in files] == [f"long.{number:04}.png" for number in range(1, len(files) + 1)]
+    for file in files:
+        with Image.open(file) as picture:
+            picture.load()
+    words = shlex.split(command)
+    assert words[:-1] == ["graphfx", "cook", "long.json", "--out", "long frames", "--set", "speed=2", "--frames"]
+    assert parse_frames(words[-1], 1, LAST) == list(range(done + 1, LAST + 1))
