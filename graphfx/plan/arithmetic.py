@@ -23,16 +23,28 @@ def function_for(name: str, arguments: tuple[str, ...]) -> Function:
     return _FORMS[name, arguments]
 
 
-@EXPRESSIONS.function("float float draw", "float")
-def random_number(low: Any, high: Any, draw: Any) -> Any:
+@EXPRESSIONS.function("draw", "float")
+def first_of(draw: Any) -> Any:
+    """u, the first number of a draw."""
+    return draw[0]
+
+
+@EXPRESSIONS.function("float draw float", "float")
+def varied(shared: Any, draw: Any, share: Any) -> Any:
+    """u + (v - u) share: a number u shared by many, varied by one's own v."""
+    return shared + (draw[0] - shared) * share
+
+
+@EXPRESSIONS.function("float float float", "float")
+def random_number(low: Any, high: Any, u: Any) -> Any:
     """low + (high - low) u."""
-    return low + (high - low) * draw[0]
+    return low + (high - low) * u
 
 
-@EXPRESSIONS.function("vec3 vec3 draw", "vec3")
-def random_vector(low: Any, high: Any, draw: Any) -> Any:
+@EXPRESSIONS.function("vec3 vec3 float", "vec3")
+def random_vector(low: Any, high: Any, u: Any) -> Any:
     """low + (high - low) u: on the segment between two vectors."""
-    return low + (high - low) * draw[0]
+    return low + (high - low) * u
 
 
 def _share(x: Any, x0: Any, x1: Any) -> Any:

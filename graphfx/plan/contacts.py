@@ -41,9 +41,10 @@ class Contacts:
                 response = self._response(surface, moment, ("resilience", "friction", "friction_threshold"))
                 hit = Column("hit", "bool")
                 into = (state.position, state.velocity, hit)
-                builder.call(basic.sims_bounce, *into[:2], distance, normal, *response, into=into)  # type: ignore[arg-type]
+                inner = self.motion.under_conditions(surface, moment)
+                inner.call(basic.sims_bounce, *into[:2], distance, normal, *response, into=into)  # type: ignore[arg-type]
                 continue
-            inside = builder.call(contact.is_inside, distance, name="inside")
+            inside = self.motion.under_conditions(surface, moment).call(contact.is_inside, distance, name="inside")
             event = inside if event is None else builder.call(basic.either, event, inside, name="event")
         return event
 
@@ -60,10 +61,14 @@ class Contacts:
             "position": builder.call(basic.copy_vector, state.position, name="first position"),
             "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),
         }
+        self.motion.select(whole)
         starts = [self._distance(surface, whole, state) for surface in self.surfaces]
         self.motion.step(whole, state)
         ends = [self._distance(surface, whole, state)[0] for surface in self.surfaces]
-        hits = [builder.call(contact.is_inside, distance, name="inside") for distance in ends]
+        hits = [
+            self.motion.under_conditions(surface, whole).call(contact.is_inside, distance, name="inside")
+            for surface, distance in zip(self.surfaces, ends, strict=True)
+        ]
         best = builder.call(basic.copy_number, step, name="contact time")
         times = []
         for surface, start, end, hit in zip(self.surfaces, starts, ends, hits, strict=True):

@@ -16,9 +16,9 @@ from graphfx.plan.liveness import Attributes, find_attributes
 from graphfx.plan.motion import Motion, Mover, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule
 from graphfx.plan.steps import FrameProgram, FrameWriter
+from graphfx.plan.support import check_support
 from graphfx.program import Program
 
-METHODS = ("auto", "exact", "strang", "sims")
 DRAWN = frozenset({"position", "radius", "color", "opacity"})
 """Attributes that a picture reads."""
 
@@ -99,6 +99,7 @@ def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
 def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     """Plan a flattened graph. `prune=False` keeps what could be left out, to show that it changes nothing."""
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
+    check_support(flat, schedule.order)
     nodes = flat.nodes
     images = [_image(nodes[path], schedule, flat) for path in schedule.order if nodes[path].node_type.role == "image"]
     emitters = {
@@ -163,12 +164,6 @@ def _nonzero(value: Value | None) -> bool:
 def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
     """Return how the motion is computed, and why: the most exact form that the operators allow."""
     asked = flat.time.method
-    if asked not in METHODS:
-        raise GraphError(
-            Problem(
-                f"method '{asked}' is not carried out by this version; choose one of {', '.join(METHODS)}", path="time.method"
-            )
-        )
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
     inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]

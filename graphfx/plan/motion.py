@@ -6,7 +6,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Name
 from graphfx.motion import basic, linear
@@ -77,15 +76,6 @@ def mover_of(node: FlatNode) -> Mover:
     form = None
     if node.node_type.role == "linear" and node.node_type.writes == ("velocity",):
         form = probe(function.body, node.node_type.arguments, function.arguments)
-    if node.node_type.role not in ("linear", "flow", "acceleration", "surface"):
-        raise GraphError(
-            Problem(
-                f"operators of the kind '{node.node_type.role}' are not carried out by this version",
-                node.location,
-                node.path,
-                (f"declared in {node.node_type.location.file}",),
-            )
-        )
     return Mover(node, function, form)
 
 
@@ -148,6 +138,7 @@ class Motion:
 
     def step(self, moment: Moment, state: State) -> None:
         """Write one step of dt, in place."""
+        self.select(moment)
         if self.method == "sims":
             self._sims(moment, state)
             return
@@ -167,7 +158,13 @@ class Motion:
         if drifts:
             self._linear(moment, state, coefficients, moment.half())
 
-    def _mask(self, mover: Mover, moment: Moment) -> Builder:
+    def select(self, moment: Moment) -> None:
+        """Write whom each operator acts on: found at the start of a step, and held."""
+        for mover in self.movers:
+            if mover.node.only is not None:
+                moment.writer.operand(mover.node.only)
+
+    def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""
         builder = moment.builder
         if mover.node.during is not None:
@@ -182,7 +179,7 @@ class Motion:
 
     def _apply(self, mover: Mover, moment: Moment, state: State, dt: Operand) -> None:
         moment.builder.note = mover.node.path
-        builder = self._mask(mover, moment)
+        builder = self.under_conditions(mover, moment)
         operands = self.arguments(mover, moment, state, {"dt": dt})
         if mover.role == "flow":
             written = tuple(state.read(name) for name in mover.node.node_type.writes)
@@ -198,7 +195,7 @@ class Motion:
         if mover.time_free and key in self._cached:
             return self._cached[key]
         moment.builder.note = mover.node.path
-        builder, precision = self._mask(mover, moment), moment.writer.precision
+        builder, precision = self.under_conditions(mover, moment), moment.writer.precision
 
         def evaluate(velocity: Operand) -> Operand:
             given = self.arguments(mover, moment, state, {"velocity": velocity})

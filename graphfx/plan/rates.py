@@ -62,7 +62,7 @@ def rate_of(tree: Any, scope: Scope) -> Rate:
     elif isinstance(tree, Keys):
         own = Rate.STEP
     elif isinstance(tree, Random):
-        own = Rate.CONSTANT if tree.per == "graph" else Rate.PARTICLE
+        own = Rate.CONSTANT if tree.per == "graph" and not tree.vary else Rate.PARTICLE
     elif isinstance(tree, Node) and tree.node_type is not None:
         reserved = tree.node_type.reserved
         if "draw" in reserved and tree.per != "graph":
@@ -102,7 +102,7 @@ def identity_of(tree: Any) -> Any:
         case Ramp():
             return ("ramp", tree.type, tree.positions, tuple(map(identity_of, tree.values)), identity_of(tree.over))
         case Random():
-            return ("rand", tree.seed, tree.per, identity_of(tree.low), identity_of(tree.high))
+            return ("rand", tree.seed, tree.per, tree.vary, identity_of(tree.low), identity_of(tree.high))
         case Node():
             arguments = tuple((name, identity_of(value)) for name, value in tree.arguments)
             return ("node", id(tree.node_type), tree.seed, tree.per, arguments)

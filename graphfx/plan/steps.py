@@ -8,6 +8,7 @@ precision does not depend on how long the cook has run.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -173,14 +174,15 @@ class FrameWriter:
     def _time(self, builder: Builder, made: FrameProgram, name: Any) -> Uniform:
         if name not in made.times:
             shown = name if isinstance(name, str) else f"{name[0]} {name[1]}"
-            made.times[name] = builder.uniform(shown, "float")
+            made.times[name] = builder.uniform(shown, "word" if name == "frame word" else "float")
         return made.times[name]
 
     def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
         steps = StepValues()
         made.steps.append(steps)
         scope = self._scope(builder, self._reader(builder, made, state, lambda: self._time(builder, made, ("middle", k))))
-        writer = self._share(ValueWriter(builder, scope, {}, steps, self.precision))
+        clock = LazyClock({"frame word": lambda: self._time(builder, made, "frame word")})
+        writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
         return Moment(builder, self._time(builder, made, ("length", k)), lambda: self._time(builder, made, ("half", k)), writer)
 
     def _share(self, writer: ValueWriter) -> ValueWriter:
@@ -188,21 +190,19 @@ class FrameWriter:
         return writer
 
     def _lane_moment(self, builder: Builder, made: FrameProgram, then: Column, dt: Column, start: Operand) -> Moment:
-        halves: list[Column] = []
-
-        def half() -> Column:
-            if not halves:
-                halves.append(builder.call(basic.half, dt, name="half"))
-            return halves[0]
-
-        lane = _LazyClock(
-            lambda: builder.call(basic.sum_of_numbers, then, half(), name="middle"),
-            lambda middle: builder.call(basic.sum_of_numbers, start, middle, name="time"),
-            lambda: self._time(builder, made, "frame"),
+        lane = LazyClock(
+            {
+                "half": lambda: builder.call(basic.half, dt, name="half"),
+                "middle": lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"),
+                "time": lambda: builder.call(basic.sum_of_numbers, start, lane["middle"], name="time"),
+                "frame": lambda: self._time(builder, made, "frame"),
+                "frame word": lambda: self._time(builder, made, "frame word"),
+            }
         )
         state = self._state(builder, made)
-        scope = self._scope(builder, self._reader(builder, made, state, lane.middle))
-        return Moment(builder, dt, half, self._share(ValueWriter(builder, scope, lane, None, self.precision)))
+        scope = self._scope(builder, self._reader(builder, made, state, lambda: lane["middle"]))
+        writer = self._share(ValueWriter(builder, scope, lane, None, self.precision))
+        return Moment(builder, dt, lambda: lane["half"], writer)
 
     def _reader(self, builder: Builder, made: FrameProgram, state: State, middle: Any) -> Any:
         def read(name: str) -> Operand:
@@ -225,20 +225,18 @@ class FrameWriter:
             builder.store("tail", tail)
 
 
-class _LazyClock(dict[str, Operand]):
-    """Times of a lane, written only when asked for."""
+class LazyClock(dict[str, Operand]):
+    """Times by name, each written when it is first asked for."""
 
-    def __init__(self, middle: Any, time: Any, frame: Any):
+    def __init__(self, makers: dict[str, Callable[[], Operand]]):
         super().__init__()
-        self._middle: Operand | None = None
-        self._make_middle, self._make_time, self._make_frame = middle, time, frame
-
-    def middle(self) -> Operand:
-        """Return the middle of the step, from the start of the frame [s]."""
-        if self._middle is None:
-            self._middle = self._make_middle()
-        return self._middle
+        self.makers = makers
 
     def __missing__(self, name: str) -> Operand:
-        self[name] = self._make_time(self.middle()) if name == "time" else self._make_frame()
+        """Write a time."""
+        self[name] = self.makers[name]()
         return self[name]
+
+    def __contains__(self, name: object) -> bool:
+        """Return whether there is such a time."""
+        return name in self.makers

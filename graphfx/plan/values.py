@@ -175,17 +175,22 @@ class _Lowering:
             return self._node(tree)
         raise TypeError(f"no instruction finds {type(tree).__name__}")
 
-    def _draw(self, value: Value, per: str) -> Column:
-        key = key_of(self.scope.seed, self.scope.emitter, value.seed)
+    def _draw(self, value: Value, per: str, purpose: str = "") -> Column:
+        """Write a draw in a scope: once for the graph, in each frame, or for the particle's life."""
+        key = key_of(self.scope.seed, self.scope.emitter, value.seed + purpose)
         nought = Uniform("0", "word", 0)
         identity: Operand = Uniform("0", "id", 0) if per == "graph" else self.scope.identity()
-        cell = self.writer.clock["frame_word"] if per == "frame" else nought
+        cell = self.writer.clock["frame word"] if per == "frame" and "frame word" in self.writer.clock else nought
         return self.builder.draw(key, identity, nought, cell)
 
     def _random(self, tree: Random) -> Operand:
         low, high = self.writer.operand(tree.low), self.writer.operand(tree.high)
+        u = self.builder.call(arithmetic.first_of, self._draw(tree, tree.per), name="u")
+        if tree.vary > 0 and tree.per != "life":
+            own = self._draw(tree, "life", "/vary")
+            u = self.builder.call(arithmetic.varied, u, own, self.writer.operand(float(tree.vary)), name="u")
         function = arithmetic.random_vector if low.type == "vec3" else arithmetic.random_number
-        return self.builder.call(function, low, high, self._draw(tree, tree.per), name=_name_of(tree))
+        return self.builder.call(function, low, high, u, name=_name_of(tree))
 
     def _repeated(self, tree: Keys) -> Operand:
         time = self.writer.operand(Name("time"))

@@ -1,0 +1,62 @@
+"""Say what a graph asks for that this version does not carry out yet: all of it at once, before any work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from graphfx.errors import GraphError, Problem
+from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal, Name, Node, Random, Value, children
+
+MOVING_ROLES = ("linear", "flow", "acceleration", "surface")
+SCOPES = ("life", "particle", "frame", "graph")
+METHODS = ("auto", "exact", "strang", "sims")
+
+
+def check_support(flat: FlatGraph, order: list[str]) -> None:
+    """Raise GraphError with everything among the nodes that run that cannot be carried out."""
+    problems = [problem for path in order for problem in _of_node(flat.nodes[path])]
+    if flat.time.method not in METHODS:
+        problems.append(
+            Problem(
+                f"method '{flat.time.method}' is not carried out by this version; choose one of {', '.join(METHODS)}",
+                path="time.method",
+            )
+        )
+    if problems:
+        raise GraphError(problems)
+
+
+def _of_node(node: FlatNode) -> Iterator[Problem]:
+    path, place = f"nodes.{node.path}", node.location
+    role = node.node_type.role
+    if node.node_type.kind == "operators" and role not in MOVING_ROLES:
+        yield Problem(
+            f"operators of the kind '{role}' are not carried out by this version; leave '{node.node_type.name}' out, "
+            'or switch it off with "enabled": false',
+            place,
+            path,
+        )
+    if node.when and node.when != "step":
+        yield Problem(f"'when': '{node.when}' is not carried out by this version", place, path)
+    if isinstance(node.only, Literal) and node.only.type == "selector":
+        yield Problem("a selector node for 'only' is not carried out by this version; give an expression", place, path)
+    values = [*node.arguments.values(), *node.sets.values(), *([node.only] if node.only is not None else [])]
+    for value in values:
+        yield from _of_value(value, value)
+
+
+def _of_value(tree: Any, place: Value) -> Iterator[Problem]:
+    if isinstance(tree, Value) and tree.path:
+        place = tree
+    if isinstance(tree, Name) and "." in tree.name:
+        yield Problem(f"'{tree.name}' is not carried out by this version", place.location, place.path)
+    if isinstance(tree, (Random, Node)) and tree.per not in SCOPES:
+        yield Problem(
+            f"draws per {tree.per} are not carried out by this version; choose one of {', '.join(SCOPES)}",
+            place.location,
+            place.path,
+        )
+    for part in children(tree):
+        yield from _of_value(part, place)
