@@ -15,8 +15,10 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from types import CodeType
 from typing import Any
 
 import llvmlite
@@ -53,6 +55,12 @@ def digest_of(parts: Iterable[bytes]) -> str:
         hasher.update(len(part).to_bytes(8, "little"))
         hasher.update(part)
     return hasher.hexdigest()
+
+
+def code_digest(code: CodeType) -> str:
+    """Return a hash of a function's bytecode, with the constants and names in it, and those of functions inside it."""
+    constants = [code_digest(part) if isinstance(part, CodeType) else repr(part) for part in code.co_consts]
+    return digest_of([code.co_code, *(text.encode() for text in (*constants, *code.co_names))])
 
 
 @cache
@@ -114,7 +122,7 @@ class CheckedCache(_Cache):
         if len(content) > 32 and hashlib.sha256(content[32:]).digest() == content[:32]:
             return CompileResult._rebuild(target_context, *pickle.loads(content[32:]))
         if content:
-            file.unlink(missing_ok=True)
+            _remove(file)
         for listener in listeners:
             listener(self.name)
         self._started = time.perf_counter()
@@ -130,14 +138,23 @@ class CheckedCache(_Cache):
         try:
             file.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
             handle, temporary = tempfile.mkstemp(dir=file.parent, suffix=".part")
+        except OSError:
+            return
+        try:
             with os.fdopen(handle, "wb") as stream:
                 stream.write(hashlib.sha256(content).digest() + content)
             os.replace(temporary, file)
         except OSError:
-            return
+            _remove(Path(temporary))
 
     _lineno = 0
 
     @property
     def _locator(self) -> Any:
         return type("Locator", (), {"_py_file": self.name})
+
+
+def _remove(file: Path) -> None:
+    """Remove a file; where that is not allowed it stays, and is passed over each time."""
+    with suppress(OSError):
+        file.unlink()

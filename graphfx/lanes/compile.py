@@ -11,7 +11,7 @@ import numba
 
 from graphfx.lanes import arithmetic, memory, vectors  # noqa: F401  (they teach Numba the lane types)
 from graphfx.lanes.bodies import register
-from graphfx.lanes.cache import CheckedCache, engine_digest
+from graphfx.lanes.cache import CheckedCache, code_digest, engine_digest
 
 BASE_FOLDERS = ("math", "lanes", "store")
 
@@ -22,7 +22,7 @@ def compiled(function: Callable[..., Any]) -> Any:
     folder = Path(inspect.getsourcefile(function) or "").parent.name
     stamp = engine_digest(*dict.fromkeys((*BASE_FOLDERS, folder)))
     name = f"{function.__module__}.{function.__qualname__}"
-    dispatcher._cache = CheckedCache(name, function.__code__.co_code, stamp)
+    dispatcher._cache = CheckedCache(name, code_digest(function.__code__).encode(), stamp)
     return dispatcher
 
 
