@@ -16,6 +16,7 @@ import numpy as np
 
 from graphfx.cook import warm
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
+from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
@@ -74,10 +75,10 @@ class Effect:
         `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
         check_limits(self.plan, limits or CookLimits())
+        wanted = sorted(set(frames)) if frames is not None else self.frames
+        check_files(self.plan, Path(out), wanted)
         written: list[Path] = []
-        for made in self._cooked(
-            Path(out), sorted(set(frames)) if frames is not None else self.frames, threads or available_threads()
-        ):
+        for made in self._cooked(Path(out), wanted, threads or available_threads()):
             written += made.files
             if report is not None:
                 report(made)
@@ -164,13 +165,6 @@ def _exposed(image: ImagePlan, film: Film) -> np.ndarray:
 
 def _columns(arrays: tuple[np.ndarray, ...], rows: np.ndarray) -> np.ndarray:
     return np.stack([array[rows] for array in arrays], axis=1) if len(arrays) > 1 else arrays[0][rows]
-
-
-def file_name(pattern: str, graph: str, frame: int) -> str:
-    """Return a file's name: each run of # is the frame's number, padded with zeros to its length."""
-    name = pattern.replace("{graph}", graph)
-    run = "#" * name.count("#")
-    return name.replace(run, f"{frame:0{len(run)}d}") if run and run in name else name
 
 
 def load(path: str | Path, library: Iterable[str | Path] = (), set: Mapping[str, Any] | None = None) -> Effect:

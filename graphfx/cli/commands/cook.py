@@ -65,7 +65,7 @@ def typed(context: click.Context) -> list[str]:
     """Return the options of a cook as they would be typed again, without the frames and the folder."""
     again: list[str] = []
     for option in context.command.params:
-        value = context.params.get(option.name or "")
+        value: Any = context.params.get(option.name or "")
         if option.name == "parameters":
             again += [part for name, given in value.items() for part in ("--set", f"{name}={given}")]
         elif option.name == "library":
@@ -100,10 +100,19 @@ class Cook:
     done: list[int] = field(default_factory=list)
     dropped: int = 0
 
+    def check(self) -> None:
+        """Refuse what would pass a limit, or could not be written, before even the folder is made."""
+        from graphfx.cook.files import check_files
+        from graphfx.cook.limits import check_limits
+
+        check_limits(self.effect.plan, self.limits)
+        check_files(self.effect.plan, self.out, self.frames)
+
     def run(self) -> None:
         """Cook all frames; say what was made."""
         from graphfx.lanes.cache import listeners
 
+        self.check()
         ready(self.out)
         started = time.monotonic()
         with progress_for(len(self.frames), terminal=sys.stderr.isatty(), quiet=self.as_json) as progress:
@@ -131,8 +140,10 @@ class Cook:
 
     def tell(self) -> None:
         """Say what would be written."""
-        from graphfx.cook.effect import file_name
+        from graphfx.cook.files import file_name
         from graphfx.cook.frames import frames_text
+
+        self.check()
 
         images = [{"node": image.node.path, "size": [int(number) for number in image.value("size")],
                    "files": [str(self.out / file_name(str(image.value("file")), self.effect.flat.name, frame))
