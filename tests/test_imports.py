@@ -158,7 +158,8 @@ def tracked_files() -> list[Path]:
     return [ROOT / name for name in listed.stdout.split("\0") if name and (ROOT / name).is_file()]
 
 
-FOREIGN = [f"{name}/" for name in ("/work", "/tmp", "/root", "/home", "shared")] + [f"{n}.md" for n in ("DESIGN", "NUMERICS", "RENDERING")]
+FOREIGN = [*(f"{name}/" for name in ("/work", "/tmp", "/root", "/home", "shared")),
+           *(f"{name}.md" for name in ("DESIGN", "NUMERICS", "RENDERING"))]
 """Places that exist on one machine only, each put together so that this file does not hold it."""
 
 
