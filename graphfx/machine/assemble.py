@@ -108,7 +108,7 @@ def assemble(program: Program, precision: int = 32) -> Assembled:
     splats, mask_lanes = _Places(0, lanes), _Places(BLOCK, BLOCK)
     same: dict[Any, int] = {}
     for uniform in uniforms:
-        key = (uniform.type, uniform.value) if uniform.value is not None else id(uniform)
+        key = (uniform.type, repr(uniform.value)) if uniform.value is not None else id(uniform)  # 0.0 == -0.0
         if key not in same:
             target = mask_lanes if uniform.type == "bool" else splats
             same[key] = target.take(max(COMPONENTS[uniform.type], 1))
