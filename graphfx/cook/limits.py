@@ -37,7 +37,7 @@ def _greatest(value: Value) -> float:
 def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:
     time = plan.flat.time
     span = (time.last - time.first) / time.fps + time.preroll
-    life = _greatest(emitter.life) if emitter.life is not None else span
+    life = float(emitter.constants.get("life", span))
     count = _greatest(emitter.node.arguments["rate"]) * min(span, life)
     if count <= limits.particles:
         return None

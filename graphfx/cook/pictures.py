@@ -8,7 +8,7 @@ import numpy as np
 
 from graphfx.cook.simulate import Particles, Simulation
 from graphfx.graph.flat import FlatNode
-from graphfx.plan.make import ImagePlan, mortal, plain_value
+from graphfx.plan.make import ImagePlan, plain_value
 from graphfx.render.camera import Camera
 from graphfx.render.film import Film
 from graphfx.render.renderer import render
@@ -76,7 +76,7 @@ def _shares(particles: Particles, time: float, opening: float) -> np.ndarray | N
     share = np.ones(store.count)
     if length > 0:
         share[newborn] = (time - particles.born_at[particles.born_at > opening]) / length
-    if len(particles.dying) and mortal(particles.plan):
+    if len(particles.dying) and particles.plan.mortal:
         after_death = (time - particles.death()[particles.dying]) / length if length > 0 else np.ones(len(particles.dying))
         share[particles.dying] = np.maximum(share[particles.dying] - after_death, 0.0)
     return share

@@ -11,8 +11,8 @@ import numpy as np
 from graphfx.cook.births import Births
 from graphfx.cook.executor import Executor
 from graphfx.motion.clock import Clock, Interval
-from graphfx.plan.make import EmitterPlan, Plan, mortal, plain_value
-from graphfx.plan.steps import FrameProgram
+from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.values import find_step_values
 from graphfx.store.processors import Column, ProcessorSet
 
@@ -50,7 +50,7 @@ class Particles:
         """Return an attribute: its arrays, or the constant that it is for all."""
         if name in self.store.columns:
             return self.store.column(name)
-        return plain_value(self.plan.attributes.constants[name])
+        return self.plan.constants[name]
 
     def death(self) -> np.ndarray:
         """Return when each particle dies [s]."""
@@ -85,8 +85,9 @@ class Simulation:
         for emitter in self.plan.emitters.values():
             for program in emitter.programs:
                 self.executor.prepare(program)
+        beginning = Interval(self.clock.start, self.clock.start, self.clock.first)
         for particles in self.particles.values():
-            self._give_birth(particles, particles.births.at_start(), self.clock.start)
+            self._give_birth(particles, particles.births.at_start(), beginning)
         if self.clock.preroll == 0 and last >= self.clock.first:
             yield self.clock.first
         for interval in self.clock.intervals(last):
@@ -95,7 +96,7 @@ class Simulation:
             if interval.frame >= self.clock.first:
                 yield interval.frame
 
-    def _give_birth(self, particles: Particles, times: np.ndarray, start: float) -> None:
+    def _give_birth(self, particles: Particles, times: np.ndarray, interval: Interval) -> None:
         """Add rows for the particles born at `times` and find their attributes."""
         store, plan = particles.store, particles.plan
         first = store.take_ordinals(len(times))
@@ -110,7 +111,8 @@ class Simulation:
         if "birth" in store.columns:
             store.arrays("birth")[0][added] = times
         by_place = {"birth_id": (_padded(ordinals, np.uint64),), "birth_time": (_padded(times, self._real),)}
-        self._run(plan.birth, particles, len(times), particles.born, None, {}, by_place, start)
+        uniforms = self._uniforms(plan.birth, interval)
+        self._run(plan.birth.program, particles, len(times), particles.born, None, uniforms, by_place, interval.start)
         if "tail" in store.columns:
             for tail, position in zip(store.arrays("tail"), store.arrays("position"), strict=True):
                 tail[added] = position[added]
@@ -142,8 +144,8 @@ class Simulation:
             store.kill(particles.dying)
             store.compact()
         before = store.count
-        self._give_birth(particles, particles.births.within(interval), interval.start)
-        death = particles.death() if mortal(plan) else None
+        self._give_birth(particles, particles.births.within(interval), interval)
+        death = particles.death() if plan.mortal else None
         particles.dying = np.flatnonzero(death <= interval.end) if death is not None else np.zeros(0, np.int64)
         if plan.main is None or plan.own is None:
             return

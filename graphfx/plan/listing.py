@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.graph.values import Literal
+from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import EmitterPlan, ImagePlan, Plan
-from graphfx.plan.steps import FrameProgram
 from graphfx.program import Call, Draw, Function, Instruction, Loop, Operand, Program, Uniform
 
 REALS = {"float": 1, "vec3": 3, "color": 3}
@@ -67,11 +66,9 @@ def _emitter_data(emitter: EmitterPlan, precision: int) -> dict[str, Any]:
         {"name": name, "type": type_, "bytes": bytes_of(type_, precision), "reason": attributes.reasons[name]}
         for name, type_ in attributes.columns.items()
     ]
-    omitted = {
-        name: f"{shown(value.value)} for all" if isinstance(value, Literal) else "nothing reads it"
-        for name, value in attributes.constants.items()
-    }
-    made = [FrameProgram(emitter.birth, []), *(program for program in (emitter.main, emitter.own) if program is not None)]
+    omitted = {name: f"{shown(value)} for all" for name, value in emitter.constants.items()}
+    omitted |= dict.fromkeys(attributes.unread, "nothing reads it")
+    made = [program for program in (emitter.birth, emitter.main, emitter.own) if program is not None]
     return {
         "path": emitter.path,
         "method": emitter.method,

@@ -33,12 +33,13 @@ def draws_in(tree: Any) -> bool:
 class Attributes:
     """`columns` maps what is stored to the store's column type; `constants` what is one for all to its value.
 
-    `reasons` says for each column who reads it.
+    `reasons` says for each column who reads it. `unread` are those that differ and that nobody reads.
     """
 
     columns: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Value] = field(default_factory=dict)
     reasons: dict[str, str] = field(default_factory=dict)
+    unread: list[str] = field(default_factory=list)
 
 
 def set_value(emitter: FlatNode, name: str) -> Value:
@@ -91,6 +92,8 @@ def _sort_out(
         if name in readers and differs(name):
             found.columns[name] = "float" if attribute.type == "float" else "vec3"
             found.reasons[name] = f"read by {readers[name]}"
+        elif differs(name):
+            found.unread.append(name)
         else:
             found.constants[name] = set_value(emitter, name)
     _add_hidden(found, emitter, operators, readers, motion_blur, differs("life"))

@@ -12,10 +12,11 @@ from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
 from graphfx.plan.birth import write_birth
 from graphfx.plan.evaluate import timed_value
+from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.liveness import Attributes, find_attributes
 from graphfx.plan.motion import Motion, Mover, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule
-from graphfx.plan.steps import FrameProgram, FrameWriter
+from graphfx.plan.steps import FrameWriter
 from graphfx.plan.support import check_support
 from graphfx.program import Program
 
@@ -28,6 +29,7 @@ class EmitterPlan:
     """One emitter's particles: their columns, their operators, their programs.
 
     `main` and `own` are None where nothing moves. `method` is how motion is computed, `reason` why.
+    `constants` are the attributes that are one for all.
     """
 
     node: FlatNode
@@ -35,10 +37,11 @@ class EmitterPlan:
     attributes: Attributes
     method: str
     reason: str
-    birth: Program
+    birth: FrameProgram
     main: FrameProgram | None
     own: FrameProgram | None
     motion: Motion
+    constants: dict[str, Any]
 
     @property
     def path(self) -> str:
@@ -48,12 +51,12 @@ class EmitterPlan:
     @property
     def programs(self) -> list[Program]:
         """Return all programs, births first."""
-        return [self.birth, *(made.program for made in (self.main, self.own) if made is not None)]
+        return [made.program for made in (self.birth, self.main, self.own) if made is not None]
 
     @property
-    def life(self) -> Value | None:
-        """Return the life that all particles have, or None where each has its own."""
-        return self.attributes.constants.get("life")
+    def mortal(self) -> bool:
+        """Return whether particles die."""
+        return self.constants.get("life", 0.0) < INFINITY
 
 
 @dataclass
@@ -154,6 +157,7 @@ def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[I
         writer.main(opening) if moves else None,
         writer.own(opening >= 0) if moves else None,
         motion,
+        {name: writer.constant(name).value for name in attributes.constants},
     )
 
 
@@ -175,9 +179,3 @@ def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
             Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")
         )
     return "strang", f"flows that do not commute ({names}): composed symmetrically, second order"
-
-
-def mortal(plan: EmitterPlan) -> bool:
-    """Return whether particles die."""
-    life = plan.life
-    return life is None or not (isinstance(life, Literal) and life.value == INFINITY)

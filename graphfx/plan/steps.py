@@ -8,8 +8,6 @@ precision does not depend on how long the cook has run.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Any
 
 from graphfx.graph.flat import FlatNode
@@ -17,24 +15,15 @@ from graphfx.graph.values import Value
 from graphfx.motion import basic
 from graphfx.node import ATTRIBUTES
 from graphfx.plan.contacts import Contacts
+from graphfx.plan.frame_program import FrameProgram, LazyClock
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Moment, Motion, State
 from graphfx.plan.rates import Scope, lane_type
 from graphfx.plan.values import StepValues, ValueWriter
-from graphfx.program import Builder, Column, Operand, Program, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform
 
 MOST_CONTACTS = 100
 """Contacts of one particle in one step; one that has more is reported and rests."""
-
-
-@dataclass
-class FrameProgram:
-    """A program with what each run must find: `steps` are the values of each substep, and `times` the uniforms
-    that hold times of the frame, by name: ("middle", k), ("length", k), ("half", k), ("end", k), "start", "opening"."""
-
-    program: Program
-    steps: list[StepValues]
-    times: dict[Any, Uniform] = field(default_factory=dict)
 
 
 class FrameWriter:
@@ -47,7 +36,7 @@ class FrameWriter:
         self.seed = seed
         self.precision = precision
         self.substeps = substeps
-        self.constants: dict[str, Operand] = {}
+        self.constants: dict[str, Uniform] = {}
         self.shared: dict[int, Operand] = {}
 
     def main(self, opening_step: int) -> FrameProgram:
@@ -74,7 +63,7 @@ class FrameWriter:
             event = contacts.main_step(moment, state, event)
             if before is not None:
                 active.note = "motion blur"
-                opening = [self._time(active, made, name) for name in (("start", k), ("end", k), "opening")]
+                opening = [made.time(active, name) for name in (("start", k), ("end", k), "opening")]
                 active.call(basic.capture, before, before, state.position, *opening, into=tail)
         self._store(builder, state, tail if opening_step >= 0 else None)
         builder.program.rejects = event if self.motion.method != "sims" else None
@@ -89,12 +78,12 @@ class FrameWriter:
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
         tail = builder.call(basic.copy_vector, state.position, name="tail") if motion_blur else None
-        start = self._time(builder, made, "frame start")
+        start = made.time(builder, "frame start")
         first = self._lane_moment(builder, made, now, now, start)
         self.motion.prepare(first, state)
         unfinished: Column | None = None
         for k in range(self.substeps):
-            finish = builder.call(basic.earlier, end, self._time(builder, made, ("end", k)), name="finish")
+            finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             going = builder.call(basic.is_less, now, finish, name="going")
             if resting is not None:
                 going = builder.call(basic.but_not, going, resting, into=going)
@@ -140,7 +129,7 @@ class FrameWriter:
         inner.under(reached).call(basic.copy_number, finish, into=now)
         if tail is not None:
             inner.note = "motion blur"
-            opening = self._time(inner, made, "opening")
+            opening = made.time(inner, "opening")
             inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
 
     def _scope(self, builder: Builder, state_read: Any) -> Scope:
@@ -159,31 +148,26 @@ class FrameWriter:
         def attribute(name: str) -> Operand:
             if name in columns:
                 return builder.load(name, lane_type(ATTRIBUTES[name].type))
-            return self._constant(name)
+            return self.constant(name)
 
         has_velocity = self.motion.has_velocity
         return State(attribute("position"), attribute("velocity") if has_velocity else None, attribute)
 
-    def _constant(self, name: str) -> Operand:
+    def constant(self, name: str) -> Uniform:
+        """Return an attribute that is one for all."""
         if name not in self.constants:
             value: Value = self.attributes.constants[name]
-            scope = Scope(self.seed, self.emitter.path, self._constant, None, lambda inner: False)  # type: ignore[arg-type]
+            scope = Scope(self.seed, self.emitter.path, self.constant, None, lambda inner: False)  # type: ignore[arg-type]
             self.constants[name] = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
         return self.constants[name]
-
-    def _time(self, builder: Builder, made: FrameProgram, name: Any) -> Uniform:
-        if name not in made.times:
-            shown = name if isinstance(name, str) else f"{name[0]} {name[1]}"
-            made.times[name] = builder.uniform(shown, "word" if name == "frame word" else "float")
-        return made.times[name]
 
     def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
         steps = StepValues()
         made.steps.append(steps)
-        scope = self._scope(builder, self._reader(builder, made, state, lambda: self._time(builder, made, ("middle", k))))
-        clock = LazyClock({"frame word": lambda: self._time(builder, made, "frame word")})
+        scope = self._scope(builder, self._reader(builder, made, state, lambda: made.time(builder, ("middle", k))))
+        clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")})
         writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
-        return Moment(builder, self._time(builder, made, ("length", k)), lambda: self._time(builder, made, ("half", k)), writer)
+        return Moment(builder, made.time(builder, ("length", k)), lambda: made.time(builder, ("half", k)), writer)
 
     def _share(self, writer: ValueWriter) -> ValueWriter:
         writer.shared = self.shared
@@ -195,8 +179,8 @@ class FrameWriter:
                 "half": lambda: builder.call(basic.half, dt, name="half"),
                 "middle": lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"),
                 "time": lambda: builder.call(basic.sum_of_numbers, start, lane["middle"], name="time"),
-                "frame": lambda: self._time(builder, made, "frame"),
-                "frame word": lambda: self._time(builder, made, "frame word"),
+                "frame": lambda: made.time(builder, "frame"),
+                "frame word": lambda: made.time(builder, "frame word"),
             }
         )
         state = self._state(builder, made)
@@ -223,20 +207,3 @@ class FrameWriter:
                 builder.store(name, operand)
         if tail is not None and "tail" in self.attributes.columns:
             builder.store("tail", tail)
-
-
-class LazyClock(dict[str, Operand]):
-    """Times by name, each written when it is first asked for."""
-
-    def __init__(self, makers: dict[str, Callable[[], Operand]]):
-        super().__init__()
-        self.makers = makers
-
-    def __missing__(self, name: str) -> Operand:
-        """Write a time."""
-        self[name] = self.makers[name]()
-        return self[name]
-
-    def __contains__(self, name: object) -> bool:
-        """Return whether there is such a time."""
-        return name in self.makers
