@@ -11,7 +11,7 @@ import numpy as np
 from graphfx.lanes.memory import FLOAT_LANES
 from graphfx.machine.draw import draw_kernel
 from graphfx.machine.kernels import DTYPES, kernel_of
-from graphfx.machine.loop import CALL, LOOP
+from graphfx.machine.loop import CALL, DEPTH, LOOP
 from graphfx.machine.transfer import BLOCK
 from graphfx.program import COMPONENTS, Call, Column, Draw, Loop, Operand, Program, Uniform
 
@@ -147,11 +147,13 @@ def _read(operand: Operand, places: dict[int, int]) -> list[int]:
     return [places[id(operand)], 0 if uniform else -1]
 
 
-def _encode(body: list[Any], places: dict[int, int], precision: int) -> list[int]:
+def _encode(body: list[Any], places: dict[int, int], precision: int, depth: int = 0) -> list[int]:
+    if depth > DEPTH:
+        raise ValueError(f"loops are nested {depth} deep; the machine holds {DEPTH}")
     code: list[int] = []
     for instruction in body:
         if isinstance(instruction, Loop):
-            inner = _encode(instruction.body, places, precision)
+            inner = _encode(instruction.body, places, precision, depth + 1)
             code += [LOOP, len(inner) + 4, places[id(instruction.mask)], instruction.limit, *inner]
             continue
         operands = [places[id(instruction.mask)]]

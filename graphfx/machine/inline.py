@@ -33,6 +33,8 @@ class _Rename(ast.NodeTransformer):
 
 def inline_body(function: Callable[..., Any], arguments: list[str], prefix: str) -> tuple[str, dict[str, Any]] | None:
     """Return a function's expression in terms of `arguments`, and the global names in it; None if it has more than that."""
+    if function.__code__.co_freevars:
+        return None
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     except (OSError, SyntaxError):

@@ -10,7 +10,6 @@ Lanes outside the context keep what their columns hold; a truth is false there.
 from __future__ import annotations
 
 import linecache
-import re
 import sys
 from dataclasses import dataclass
 from functools import cache
@@ -21,13 +20,12 @@ from numba import types
 from numba.core import errors
 from numba.core.ccallback import CFunc
 
-from graphfx.errors import Location, NodeError, Problem
 from graphfx.lanes import any_lane, operands, register
-from graphfx.lanes.arithmetic import BRANCH, LaneBranchError
 from graphfx.lanes.cache import CheckedCache, digest_of, engine_digest
 from graphfx.lanes.memory import FLOAT_LANES
 from graphfx.lanes.types import Real
 from graphfx.machine.inline import inline_body
+from graphfx.machine.mistakes import located
 from graphfx.program import Function
 
 BLOCK = 256
@@ -139,31 +137,11 @@ def _kernel_of(function: Function, precision: int, width: int) -> Kernel:
     width = width or (1 if function.branches else FLOAT_LANES[dtype])
     members = function.bundle.functions if function.bundle else [function]
     files = sorted(set().union(*(register(member.body) for member in members)))
-    stamp = digest_of([engine_digest("math", "lanes", "machine").encode(), *(file.read_bytes() for file in files)])
+    closed = [repr(cell.cell_contents).encode() for member in members for cell in member.body.__closure__ or ()]
+    stamp = digest_of([engine_digest("math", "lanes", "machine").encode(), *(file.read_bytes() for file in files), *closed])
     name = function.bundle.name if function.bundle else function.name
     source, named = kernel_source(function, width)
     try:
         return compile_source(name, source, named, Real(dtype, width), stamp)
     except errors.NumbaError as error:
-        raise _located(function, error) from error
-
-
-def _located(function: Function, error: Exception) -> NodeError:
-    """Say what Numba found wrong at the author's own file and line."""
-    text = str(error)
-    source = function.body.__code__.co_filename
-    lines = [int(line) for file, line in re.findall(r"at (\S+) \((\d+)\)", text) if file == source]
-    lines += [int(line) for file, line in re.findall(r'File "([^"]+)", line (\d+)', text) if file == source]
-    line = lines[0] if lines else _first_line(function)
-    if BRANCH in text or isinstance(error, LaneBranchError):
-        message = BRANCH
-    else:
-        found = re.findall(r"No implementation of function (.*?) found for signature:\s+>>> (.*)", text)
-        message = f"no lane code for {found[-1][1].strip()}" if found else text.strip().splitlines()[-1]
-    return NodeError(Problem(message, Location(source, line), function.name))
-
-
-def _first_line(function: Function) -> int:
-    """Return the line of a function's first statement: that of a body put into its kernel is its only one."""
-    code = function.body.__code__
-    return min((line for _, _, line in code.co_lines() if line and line > code.co_firstlineno), default=code.co_firstlineno)
+        raise located(function, error) from error

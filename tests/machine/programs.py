@@ -79,8 +79,14 @@ def copied(arrays: dict[str, Any]) -> dict[str, Any]:
 
 def differences(first: dict[str, Any], second: dict[str, Any], count: int) -> list[str]:
     """Return where two sets of arrays differ in a bit within `count` rows; any NaN is as good as another."""
-    return [f"{name}[{row}]: {one[row]!r} and {other[row]!r}" for name in first for one, other in zip(first[name], second[name], strict=True)
-            for row in range(count) if one[row].tobytes() != other[row].tobytes() and not (one[row] != one[row] and other[row] != other[row])]
+    found = []
+    for name in first:
+        for one, other in zip(first[name], second[name], strict=True):
+            one, other = one[:count], other[:count]
+            bits = f"u{one.dtype.itemsize}"
+            rows = np.flatnonzero((one.view(bits) != other.view(bits)) & ~((one != one) & (other != other)))
+            found += [f"{name}[{row}]: {one[row]!r} and {other[row]!r}" for row in rows]
+    return found
 
 
 def same_both_ways(program: Program, setting: Setting, seed: int = 0) -> None:
@@ -119,7 +125,8 @@ class RandomProgram:
             self._call(builder, known, fresh=True)
         self._body(builder, known, size, 0)
         for k, operand in enumerate([o for type_ in ("float", "vec3", "bool") for o in known[type_] if isinstance(o, Column)]):
-            builder.store(operand.name if operand in builder.program.loads.values() and operand.name != "age" else f"out {k}", operand)
+            loaded = operand in builder.program.loads.values() and operand.name != "age"
+            builder.store(operand.name if loaded else f"out {k}", operand)
         self.program = builder.program
 
     def _one(self, known: dict[str, list[Operand]], type_: str) -> Operand:
