@@ -82,8 +82,8 @@ for _function, _count, _intrinsic in (
     (math.floor, 1, "floor"), (math.sqrt, 1, "sqrt"), (abs, 1, "fabs"),
 ):
     define(_function, _count, intrinsic_call(_intrinsic))
-for _function, _symbol in ((primitives.minimum, "<"), (primitives.maximum, ">"), (min, "<"), (max, ">")):
-    define(_function, 2, _lesser(_symbol))
+for _lesser_of, _symbol in ((primitives.minimum, "<"), (primitives.maximum, ">"), (min, "<"), (max, ">")):
+    define(_lesser_of, 2, _lesser(_symbol))
 
 
 def _scale2(builder: ir.IRBuilder, real: Real, x: ir.Value, k: ir.Value) -> ir.Value:

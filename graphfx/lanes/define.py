@@ -29,6 +29,7 @@ def define(function: Any, count: int, generate: Generator, result: Callable[[Rea
 
     def lower(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
         real = joined(sig.args)
+        assert real is not None
         return generate(builder, real, *(convert(context, builder, v, t, real) for v, t in zip(values, sig.args, strict=True)))
 
     lower_builtin(function, *[Real] * count)(lower)

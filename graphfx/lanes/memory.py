@@ -13,7 +13,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from graphfx.lanes.types import INT32, INT64, Mask, Real, convert
+from graphfx.lanes.types import INT64, Mask, Real, convert
 from graphfx.lanes.types import splat as _splat
 
 FLOAT_LANES = {types.float32: 16, types.float64: 8}
@@ -46,7 +46,8 @@ def load(typing: Any, array: Any, index: Any) -> Any:
 
     def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
         base = _array_data(context, builder, sig.args[0], values[0])
-        return builder.load(_lane_pointer(builder, base, _index(context, builder, values[1], sig.args[1]), real.llvm), align=_bytes(real))
+        index = _index(context, builder, values[1], sig.args[1])
+        return builder.load(_lane_pointer(builder, base, index, real.llvm), align=_bytes(real))
 
     return real(array, index), generate
 

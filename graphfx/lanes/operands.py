@@ -213,17 +213,33 @@ def read_number(typing: Any, operands: Any, place: Any) -> Any:
     return types.int64(operands, place), generate
 
 
-@intrinsic
+def _halves_of_products(builder: ir.IRBuilder, word: ir.Value, factor: int, width: int) -> list[ir.Value]:
+    """Return high and low words of word * factor: even and odd lanes apart, as the processor multiplies them."""
+    wide = ir.VectorType(INT64, width // 2)
+    low_half, shift, factors = constant(wide, 0xFFFFFFFF), constant(wide, 32), constant(wide, factor)
+    pairs = builder.bitcast(word, wide)
+    even = builder.mul(builder.and_(pairs, low_half), factors)
+    odd = builder.mul(builder.lshr(pairs, shift), factors)
+    high = builder.or_(builder.lshr(even, shift), builder.and_(odd, builder.not_(low_half)))
+    low = builder.or_(builder.and_(even, low_half), builder.shl(odd, shift))
+    return [builder.bitcast(part, word.type) for part in (high, low)]
+
+
+@intrinsic(prefer_literal=True)
 def multiply_high_low(typing: Any, word: Any, factor: Any) -> Any:
-    """Return the high and low 32 bits of word * factor."""
+    """Return the high and low 32 bits of word * factor, a constant of 32 bits."""
+    number = _literal(factor)
+    if number is None:
+        return None
 
     def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
-        wide = ir.VectorType(INT64, word.width) if word.width > 1 else INT64
-        product = builder.mul(builder.zext(values[0], wide), _splat(builder, values[1], wide))
-        high = builder.trunc(builder.lshr(product, constant(wide, 32)), word.llvm)
+        if word.width > 1:
+            return cgutils.pack_array(builder, _halves_of_products(builder, values[0], number, word.width))
+        product = builder.mul(builder.zext(values[0], INT64), ir.Constant(INT64, number))
+        high = builder.trunc(builder.lshr(product, ir.Constant(INT64, 32)), word.llvm)
         return cgutils.pack_array(builder, [high, builder.trunc(product, word.llvm)])
 
-    return types.UniTuple(word, 2)(word, types.int64), generate
+    return types.UniTuple(word, 2)(word, factor), generate
 
 
 @intrinsic

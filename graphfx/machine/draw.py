@@ -44,4 +44,5 @@ def draw_kernel(precision: int = 32) -> Kernel:
     """Return the kernel that draws four numbers for each particle."""
     dtype = DTYPES[precision]
     width = FLOAT_LANES[dtype]
-    return compile_source("draw", SOURCE.format(width=width), {"draw": philox_lanes}, Real(dtype, width), engine_digest("math", "lanes", "machine"))
+    stamp = engine_digest("math", "lanes", "machine")
+    return compile_source("draw", SOURCE.format(width=width), {"draw": philox_lanes}, Real(dtype, width), stamp)

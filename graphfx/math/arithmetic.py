@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.math import absolute, maximum, minimum, where, Vec3, unit
+from graphfx.math import Vec3, absolute, maximum, minimum, unit, where
 from graphfx.math import cos as cos_of
 from graphfx.math import cross as cross_of
 from graphfx.math import dot as dot_of

@@ -94,7 +94,8 @@ def _execute(file: Path, kind: str) -> ModuleType:
     except NodeError:
         raise
     except SyntaxError as error:
-        raise NodeError(Problem(f"not Python: {error.msg}", Location(str(file), error.lineno or 0, error.offset or 0), file.stem)) from error
+        place = Location(str(file), error.lineno or 0, error.offset or 0)
+        raise NodeError(Problem(f"not Python: {error.msg}", place, file.stem)) from error
     except Exception as error:
         own = [entry for entry in traceback.extract_tb(error.__traceback__) if entry.filename == str(file)]
         line = own[-1].lineno or 0 if own else 0
