@@ -46,6 +46,8 @@ def _bin(segments: Any, start: int, stop: int, across: int, down: int, places: A
         for tile_row in range(first_row, last_row + 1):
             low = tile_row * TILE_HEIGHT + 0.5 - reach
             first, last = clipped(y, dy, low, low + TILE_HEIGHT - 1.0 + 2.0 * reach, 0.0, 1.0)
+            if first > last:
+                continue
             a, b = x + first * dx, x + last * dx
             first_column, last_column = _near(min(a, b) - reach, max(a, b) + reach, TILE_WIDTH, across)
             for tile in range(tile_row * across + first_column, tile_row * across + last_column + 1):

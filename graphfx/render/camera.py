@@ -15,6 +15,10 @@ import numpy as np
 
 FILM_WIDTH = 36.0
 """Width of the film in mm."""
+NEAREST, FARTHEST = 1e-9, 1e15
+"""Metres ahead within which a perspective camera sees, whatever its planes: its depths are float32."""
+GREATEST = 1e100
+"""So that products of a camera's numbers stay finite."""
 PERSPECTIVE = "perspective"
 ORTHOGRAPHIC = "orthographic"
 
@@ -45,13 +49,21 @@ class Camera:
             raise ValueError(f"near is {self.near}, far {self.far}; near must be less than far, and in perspective more than 0")
         if not (self.lens > 0.0 and self.width_of_view > 0.0):
             raise ValueError("lens and width_of_view must be more than 0")
-        if not np.isfinite([*self.position, *self.target, *self.up, self.lens, self.width_of_view]).all():
-            raise ValueError("a camera's numbers must be finite")
+        numbers = np.abs([*self.position, *self.target, *self.up, self.lens, self.width_of_view])
+        if not (numbers < GREATEST).all():
+            raise ValueError(f"a camera's numbers must be finite, and less than {GREATEST:g}")
 
     @property
     def perspective(self) -> bool:
         """Return whether far things look smaller."""
         return self.projection == PERSPECTIVE
+
+    @property
+    def planes(self) -> tuple[float, float]:
+        """Return the depths of the near and far planes."""
+        if self.perspective:
+            return max(float(self.near), NEAREST), min(float(self.far), FARTHEST)
+        return float(self.near), float(self.far)
 
     def axes(self) -> np.ndarray:
         """Return the unit vectors right, up and ahead as rows.

@@ -64,4 +64,5 @@ def evenness(segments, q, square, total):
     fade = min(max(LARGE - radius, 0.0), 1.0) * min(max(2.0 - length / LENGTHY, 0.0), 1.0)
     if fade == 0.0:
         return 1.0
-    return 1.0 + fade * (total / sampled_total(segments, q, square) - 1.0)
+    sampled = sampled_total(segments, q, square)
+    return 1.0 + fade * (total / sampled - 1.0) if sampled > 0.0 else 1.0

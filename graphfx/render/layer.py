@@ -4,7 +4,7 @@
     r = r0 + t (r1 - r0),  rho = max(r, 1)             radius there, pixels
     opacity = o(s) shape(distance / rho) weight(r, rho)            shape: see falloff.py
     weight = r (r + rest) / (rho (rho + rest + speed))             what clamping and exposure leave
-    key = max(k0 + t (k1 - k0), nearest end's key)     never nearer than the whole segment
+    key = k0 + t (k1 - k0), between k0 and k1          so that rounding never puts it before the whole segment
 
 Solid streaks have rest = (width / area) L and speed 0, exposed ones rest 0 and speed = (width / area) v, v being
 the speed on the screen there, pixels a shutter. So a capsule of even radius has the total (width r L + area r^2)
@@ -70,6 +70,7 @@ class Local(NamedTuple):
     key: np.float32
     key_way: np.float32
     nearest: np.float32
+    farthest: np.float32
     first: np.float32
     share: np.float32
     reach: np.float32
@@ -88,6 +89,12 @@ def clipped(start, way, low, high, first, last):
 
 
 @inner
+def _bounded(value, most):
+    """Return a value as float32; beyond 10^12 pixels, where float64 ends, it may be wrong, but never more than `most`."""
+    return F(min(max(value, -most), most))
+
+
+@inner
 def localize(segments, q, left, top):
     """Return segment q relative to the pixel centre (left, top); its `inverse` is negative if it misses the tile."""
     places, values, kind = segments.places, segments.values, np.int64(segments.kind[q])
@@ -98,20 +105,22 @@ def localize(segments, q, left, top):
     if kind & 3 == DISC:
         reach += F(DISC_RAMP)
     first, last = 0.0, 1.0
+    margin = np.float64(reach) + 1.0
     if max(abs(dx), abs(dy)) > LONG:
-        margin = np.float64(reach) + 1.0
         first, last = clipped(x, dx, -margin, TILE_WIDTH - 1 + margin, first, last)
         first, last = clipped(y, dy, -margin, TILE_HEIGHT - 1 + margin, first, last)
     share = last - first
     radius_way, key_way = np.float64(r1) - np.float64(r0), np.float64(k1) - np.float64(k0)
-    way_x, way_y = F(dx * share), F(dy * share)
+    most = margin + LONG + TILE_HEIGHT
+    start_x, start_y = _bounded(x + first * dx, most), _bounded(y + first * dy, most)
+    way_x, way_y = _bounded(dx * share, 2.0 * most), _bounded(dy * share, 2.0 * most)
     squared = way_x * way_x + way_y * way_y
     inverse = F(1.0) / squared if squared > SHORTEST else F(0.0)
     pace = segments.pace[q]
     return Local(
-        F(x + first * dx), F(y + first * dy), way_x, way_y, inverse if share >= 0.0 else F(-1.0),
+        start_x, start_y, way_x, way_y, inverse if share >= 0.0 else F(-1.0),
         F(r0 + first * radius_way), F(share * radius_way), F(k0 + first * key_way), F(share * key_way),
-        min(k0, k1), F(first), F(share), reach,
+        min(k0, k1), max(k0, k1), F(first), F(share), reach,
         pace if kind & SOLID else F(0.0), F(0.0) if kind & SOLID else pace, kind,
     )
 
@@ -152,7 +161,7 @@ def nearest_point(local, group):
 def fragments(local, group, square):
     """Return (key, opacity at the full opacity of 1, t, which lanes are touched); `square` says perspective."""
     t, distance = nearest_point(local, group)
-    key = maximum(local.key + t * local.key_way, local.nearest)
+    key = minimum(maximum(local.key + t * local.key_way, local.nearest), local.farthest)
     radius = local.radius + t * local.radius_way
     clamped = maximum(radius, 1.0)
     speed = key * key * local.pace if square else key * 0.0 + local.pace
@@ -182,7 +191,7 @@ def colored(segments, q, local, key, t, square):
     if local.kind & VARYING:
         s = local.first + t * local.share
         if square:
-            s = s * values[q, KEY1] / key
+            s = minimum(s * values[q, KEY1] / key, 1.0)
         opacity = opacity + s * (tails[q, 3] - values[q, OPACITY])
         red = red + s * (tails[q, 0] - values[q, RED])
         green = green + s * (tails[q, 1] - values[q, GREEN])

@@ -38,6 +38,8 @@ from graphfx.render.segments import (
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
+GREATEST_PACE = 1e28
+"""Times the greatest radius still a float32."""
 GREATEST_COLOR = np.float32(1e30)
 """Colours are kept within this, so that differences and sums of them stay finite."""
 class View(NamedTuple):
@@ -127,14 +129,15 @@ def _screen_segment(columns, i, view):
     r_tail = max(np.float64(_value(columns, 7, i)), 0.0) * view.tail_scale
     x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
     y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
-    k0, k1 = _mixed(head[2], tail[2], first), _mixed(head[2], tail[2], last)
+    k0 = min(max(_mixed(head[2], tail[2], first), view.near), view.far)  # rounding must not leave the planes
+    k1 = min(max(_mixed(head[2], tail[2], last), view.near), view.far)
     r0, r1 = _mixed(r_head, r_tail, first), _mixed(r_head, r_tail, last)
     if view.perspective:
         i0, i1 = 1.0 / k0, 1.0 / k1
         x0, y0, r0, k0 = x0 * i0, y0 * i0, r0 * i0, -i0
         x1, y1, r1, k1 = x1 * i1, y1 * i1, r1 * i1, -i1
     r0, r1 = min(r0, GREATEST_RADIUS), min(r1, GREATEST_RADIUS)
-    visible = first <= last and max(r0, r1) > 0.0
+    visible = first <= last and max(r0, r1) > 0.0 and (x0 + y0 + x1 + y1) * 0.0 == 0.0
     return visible, first, last, (x0, y0, x1 - x0, y1 - y0, r0, r1, k0, k1)
 
 
@@ -157,7 +160,7 @@ def _pace(segment, look, perspective):
     """
     _, _, dx, dy, _, _, k0, k1 = segment
     pace = look.width / look.area * math.sqrt(dx * dx + dy * dy)
-    return pace / (k0 * k1) if look.exposed and perspective else pace
+    return min(pace / (k0 * k1) if look.exposed and perspective else pace, GREATEST_PACE)
 
 
 @inner

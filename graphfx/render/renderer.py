@@ -67,7 +67,7 @@ def _project(
     """Return room for all segments, the rows of those in the picture, and how many particles were dropped."""
     view = View(
         head.screen_matrix(width, height), tail.screen_matrix(width, height), head.scale(width), tail.scale(width),
-        float(head.near), float(head.far), head.perspective, width, height,
+        *head.planes, head.perspective, width, height,
     )
     segments = empty_segments(sum(stream.count for stream in streams), any(stream.varies for stream in streams))
     rows: list[np.ndarray] = [np.empty(0, np.int64)]

@@ -168,7 +168,7 @@ def keys_of(segment, left, top):
     across = np.arange(8, dtype=F)[None, :] - local_x
     down = np.arange(16, dtype=F)[:, None] - local_y
     t = np.minimum(np.maximum((across * way_x + down * way_y) * inverse, F(0)), F(1))
-    return np.maximum(key + t * key_way, min(segment.key))
+    return np.clip(key + t * key_way, min(segment.key), max(segment.key))
 
 
 def exact_keys(segment, left, top):

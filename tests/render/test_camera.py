@@ -65,6 +65,7 @@ def test_looking_straight_down_is_no_difficulty(up):
         ({"near": 2.0, "far": 1.0}, "far 1.0"),
         ({"lens": -1.0}, "lens and width_of_view"),
         ({"position": (np.nan, 0, 0)}, "finite"),
+        ({"target": (0, 1e300, 0)}, "less than 1e\\+100"),
     ],
 )
 def test_impossible_cameras_are_refused(wrong, message):
