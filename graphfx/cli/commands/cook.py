@@ -99,6 +99,7 @@ class Cook:
     as_json: bool
     done: list[int] = field(default_factory=list)
     dropped: int = 0
+    restless: int = 0
 
     def check(self) -> None:
         """Refuse what would pass a limit, or could not be written, before even the folder is made."""
@@ -120,10 +121,12 @@ class Cook:
             def report(frame: FrameReport) -> None:
                 self.done.append(frame.frame)
                 self.dropped += frame.dropped
+                self.restless = frame.restless
                 progress.frame(frame)
                 if self.as_json:
                     self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
-                                 "dropped": frame.dropped, "files": list(map(str, frame.files))})
+                                 "dropped": frame.dropped, "restless": frame.restless,
+                                 "files": list(map(str, frame.files))})
 
             listeners.append(progress.compiling)
             try:
@@ -131,12 +134,18 @@ class Cook:
             finally:
                 listeners.remove(progress.compiling)
         seconds = time.monotonic() - started
-        if self.dropped:
-            click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
+        self._warn()
         if self.as_json:
             self._print({"frames": len(self.done), "files": len(files), "seconds": round(seconds, 3)})
         else:
             click.echo(f"wrote {counted(len(files), 'file')} in {self.out} ({in_words(seconds)})")
+
+    def _warn(self) -> None:
+        """Tell of particles that the pictures do not show as they should."""
+        if self.dropped:
+            click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
+        if self.restless:
+            click.echo(f"{self.restless:,} times a particle had too many contacts in one step, and was laid to rest", err=True)
 
     def tell(self) -> None:
         """Say what would be written."""
