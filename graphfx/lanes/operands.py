@@ -216,13 +216,13 @@ def read_number(typing: Any, operands: Any, place: Any) -> Any:
 def _halves_of_products(builder: ir.IRBuilder, word: ir.Value, factor: int, width: int) -> list[ir.Value]:
     """Return high and low words of word * factor: even and odd lanes apart, as the processor multiplies them."""
     wide = ir.VectorType(INT64, width // 2)
-    low_half, shift, factors = constant(wide, 0xFFFFFFFF), constant(wide, 32), constant(wide, factor)
-    pairs = builder.bitcast(word, wide)
-    even = builder.mul(builder.and_(pairs, low_half), factors)
-    odd = builder.mul(builder.lshr(pairs, shift), factors)
-    high = builder.or_(builder.lshr(even, shift), builder.and_(odd, builder.not_(low_half)))
-    low = builder.or_(builder.and_(even, low_half), builder.shl(odd, shift))
-    return [builder.bitcast(part, word.type) for part in (high, low)]
+    pairs, factors = builder.bitcast(word, wide), constant(wide, factor)
+    even = builder.mul(builder.and_(pairs, constant(wide, 0xFFFFFFFF)), factors)
+    odd = builder.mul(builder.lshr(pairs, constant(wide, 32)), factors)
+    words = [builder.bitcast(product, word.type) for product in (even, odd)]
+    order = ir.VectorType(INT32, width)
+    places = [[half + lane // 2 * 2 + lane % 2 * width for lane in range(width)] for half in (1, 0)]
+    return [builder.shuffle_vector(*words, ir.Constant(order, place)) for place in places]
 
 
 @intrinsic(prefer_literal=True)
