@@ -16,7 +16,6 @@ def image(
     background: Vec3 = param((0, 0, 0), type="color", min=0, doc="Colour behind the particles."),
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),
     exposure: float = param(0.0, unit="stops", min=-30, max=30, doc="The picture's light is scaled by 2 to this power."),
-    bits: int = param(8, choices=("8", "16"), doc="Bits of a channel in the file."),
     file: str = param("{graph}.####.png", doc="Name of the files; #### is the frame and {graph} the graph's name."),
 ) -> None:
     """Draw."""

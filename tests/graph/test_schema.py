@@ -51,7 +51,7 @@ GOOD: dict[str, Any] = {"graphfx": 1, "nodes": {
     ("nodes/fall/ops/0/when", "birth"), ("nodes/fall/ops/0", {"type": "push"}), ("nodes/fall/ops", {}), ("nodes/fall",
     {"from": "sky", "ops": []}),
     ("nodes/view/id", "eye"), ("nodes/view/projection", "flat"), ("nodes/frames/camera", 3), ("nodes/frames/from", []),
-    ("nodes/frames/from", [{"stream": "fall", "blend": "ad"}]), ("nodes/frames/size", [1280]), ("nodes/frames/bits", 12),
+    ("nodes/frames/from", [{"stream": "fall", "blend": "ad"}]), ("nodes/frames/size", [1280]),
     ("nodes/frames", {"type": "image", "from": "fall"}),
 ])
 def test_typed_mistakes_do_not_validate(path: str, value: Any, validator: Draft202012Validator) -> None:
