@@ -63,9 +63,16 @@ def _replace_by_folder(file: Path) -> None:
     file.mkdir()
 
 
-DAMAGE = {"truncated": _truncate, "flipped": _flip, "flipped hash": _flip_the_hash, "longer": _append,
-          "empty": lambda file: file.write_bytes(b""), "short": lambda file: file.write_bytes(b"graphfx"),
-          "text": lambda file: file.write_text("no code " * 100), "removed": Path.unlink}
+DAMAGE = {
+    "truncated": _truncate,
+    "flipped": _flip,
+    "flipped hash": _flip_the_hash,
+    "longer": _append,
+    "empty": lambda file: file.write_bytes(b""),
+    "short": lambda file: file.write_bytes(b"graphfx"),
+    "text": lambda file: file.write_text("no code " * 100),
+    "removed": Path.unlink,
+}
 
 
 @pytest.mark.parametrize("damage", DAMAGE)

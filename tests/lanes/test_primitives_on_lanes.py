@@ -82,7 +82,7 @@ TWO = [four_operations, signs, choices, comparisons, roundings, literals, masks]
 @pytest.mark.parametrize("function", TWO, ids=lambda function: function.name)
 def test_two_arguments(function, precision, width):
     """For every pair of hostile values, and for random ones, lanes give what one particle gives."""
-    hostile = pairs(adversarial(precision)[::1 if width == 0 else 3])
+    hostile = pairs(adversarial(precision)[:: 1 if width == 0 else 3])
     random = scattered(precision, 500, 1), scattered(precision, 500, 2)[::-1]
     columns = [np.concatenate(both) for both in zip(hostile, random, strict=True)]
     same_bits(on_lanes(function, columns, precision, width), in_plain_python(function, columns, precision), columns)

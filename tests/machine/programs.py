@@ -38,8 +38,9 @@ def arrays_for(program: Program, count: int, precision: int, seed: int = 0) -> d
             made[name] = (draw.integers(0, 2**31, room).astype(np.int32),)
         else:
             parts = range(3 if column.type == "vec3" else 1)
-            made[name] = tuple((draw.normal(0, 2, room) if name in program.loads else np.full(room, 7.0)).astype(KINDS[precision])
-                               for _ in parts)
+            made[name] = tuple(
+                (draw.normal(0, 2, room) if name in program.loads else np.full(room, 7.0)).astype(KINDS[precision]) for _ in parts
+            )
     return made
 
 
@@ -69,7 +70,8 @@ def in_plain_python(program: Program, arrays: dict[str, Any], setting: Setting) 
     """Run in place particle by particle; return the rejected rows."""
     apart = {name: arrays[name] for name in setting.by_place}
     return ReferenceExecutor(setting.precision).run(
-        program, setting.count, setting.listed, setting.excluded, arrays, setting.uniforms, apart, NOW)
+        program, setting.count, setting.listed, setting.excluded, arrays, setting.uniforms, apart, NOW
+    )
 
 
 def copied(arrays: dict[str, Any]) -> dict[str, Any]:

@@ -64,8 +64,10 @@ def test_uniform_and_column_operands_give_the_same_bits(precision):
         made.append({name: arrays[name] for name in builder.program.stores})
     for other in made[1:]:
         for name in other:
-            assert all(np.array_equal(one[:300], part[:300], equal_nan=True)
-                       for one, part in zip(made[0][name], other[name], strict=True)), name
+            assert all(
+                np.array_equal(one[:300], part[:300], equal_nan=True)
+                for one, part in zip(made[0][name], other[name], strict=True)
+            ), name
 
 
 @pytest.mark.parametrize("precision", [32, 64])
@@ -206,6 +208,7 @@ def made_by(FACTOR):
     @function("float vec3", "vec3")
     def closed(a, v):
         return v * maximum(a, FACTOR) + Vec3(a, 1.0, -a) * FACTOR
+
     return closed
 
 

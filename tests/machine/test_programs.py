@@ -62,8 +62,14 @@ def test_particle_alone():
     for row in (0, 255, 256, 699):
         alone = copied(arrays)
         on_machine(made.program, alone, Setting(700, 32, np.array([row]), uniforms=made.uniforms))
-        assert differences({name: tuple(part[row : row + 1] for part in parts) for name, parts in alone.items()},
-                           {name: tuple(part[row : row + 1] for part in parts) for name, parts in whole.items()}, 1) == []
+        assert (
+            differences(
+                {name: tuple(part[row : row + 1] for part in parts) for name, parts in alone.items()},
+                {name: tuple(part[row : row + 1] for part in parts) for name, parts in whole.items()},
+                1,
+            )
+            == []
+        )
 
 
 @pytest.mark.parametrize("listed", [None, np.arange(290, 5, -3)])
