@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -129,7 +129,7 @@ class Simulation:
         listed: np.ndarray | None,
         excluded: np.ndarray | None,
         uniforms: dict[int, Any],
-        by_place: dict[str, tuple[np.ndarray, ...]],
+        by_place: Mapping[str, tuple[np.ndarray, ...]],
         now: float,
     ) -> np.ndarray:
         store = particles.store
@@ -183,14 +183,14 @@ class Simulation:
             if isinstance(name, tuple):
                 kind, k = name
                 values[id(uniform)] = {
-                    "length": length,
-                    "half": length / 2,
                     "start": k * length,
                     "end": (k + 1) * length,
                     "middle": (k + 0.5) * length,
                 }[kind]
             else:
                 values[id(uniform)] = {
+                    "length": length,
+                    "half": length / 2,
                     "opening": opening,
                     "frame start": interval.start,
                     "frame": interval.frame,

@@ -13,7 +13,7 @@ from graphfx.machine.draw import draw_kernel
 from graphfx.machine.kernels import DTYPES, kernel_of
 from graphfx.machine.loop import CALL, DEPTH, LOOP
 from graphfx.machine.transfer import BLOCK
-from graphfx.program import COMPONENTS, Call, Column, Draw, Loop, Operand, Program, Uniform
+from graphfx.program import COMPONENTS, Call, Draw, Loop, Operand, Program, Uniform
 
 CALL_HEADER = 3
 

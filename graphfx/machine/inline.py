@@ -20,7 +20,7 @@ class _Rename(ast.NodeTransformer):
         self.prefix = prefix
         self.found: dict[str, Any] = {}
 
-    def visit_Name(self, node: ast.Name) -> ast.Name:  # noqa: N802
+    def visit_Name(self, node: ast.Name) -> ast.Name:
         """Rename an argument, or a global name, which is noted."""
         if node.id in self.arguments:
             return ast.Name(self.arguments[node.id], node.ctx)

@@ -90,7 +90,8 @@ def kernel_source(function: Function, width: int) -> tuple[str, dict[str, Any]]:
 
     A bundle's kernel is told the function's number by its second operand.
     """
-    lines, scope = ["def kernel(S, C, M):"], {}
+    lines: list[str] = ["def kernel(S, C, M):"]
+    scope: dict[str, Any] = {}
     if function.bundle is None:
         inner, scope = _pass(function, width, "body", 1)
         lines += [f"    {line}" for line in inner]
@@ -106,7 +107,8 @@ def kernel_source(function: Function, width: int) -> tuple[str, dict[str, Any]]:
 
 def _memory(real: Real) -> dict[str, Any]:
     names = [name for name in vars(operands) if name.startswith(("read_", "write_"))]
-    return {name: getattr(operands, name) for name in names} | {"R": real, "any_lane": any_lane, "uniform_of": operands.uniform_of}
+    own = {"R": real, "any_lane": any_lane, "uniform_of": operands.uniform_of}
+    return {name: getattr(operands, name) for name in names} | own
 
 
 def compile_source(name: str, source: str, named: dict[str, Any], real: Real, stamp: str) -> Kernel:
@@ -120,10 +122,10 @@ def compile_source(name: str, source: str, named: dict[str, Any], real: Real, st
     exec(compile(source, file, "exec"), module.__dict__)
     pointer = types.CPointer(real.dtype)
     arguments = (pointer, types.CPointer(types.int64), types.CPointer(types.uint16))
-    handle = CFunc(module.kernel, (arguments, types.void), locals={}, options={"error_model": "numpy", "nogil": True})
+    handle: Any = CFunc(module.kernel, (arguments, types.void), locals={}, options={"error_model": "numpy", "nogil": True})
     handle._cache = CheckedCache(f"kernel.{name}", source.encode(), stamp)
     handle.compile()
-    return Kernel(handle.address, handle, source)
+    return Kernel(int(handle.address), handle, source)
 
 
 def kernel_of(function: Function, precision: int = 32, width: int = 0) -> Kernel:

@@ -57,6 +57,7 @@ class Contacts:
             self.motion.step(whole, state)
             self.main_step(whole, state, None)
             return
+        assert state.velocity is not None
         first = {
             "position": builder.call(basic.copy_vector, state.position, name="first position"),
             "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),

@@ -19,6 +19,7 @@ from graphfx.plan.frame_program import FrameProgram, LazyClock
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Moment, Motion, State
 from graphfx.plan.rates import Scope, lane_type
+from graphfx.plan.sharing import share
 from graphfx.plan.values import StepValues, ValueWriter
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -67,6 +68,7 @@ class FrameWriter:
                 active.call(basic.capture, before, before, state.position, *opening, into=tail)
         self._store(builder, state, tail if opening_step >= 0 else None)
         builder.program.rejects = event if self.motion.method != "sims" else None
+        share(made.program)
         return made
 
     def own(self, motion_blur: bool) -> FrameProgram:
@@ -101,6 +103,7 @@ class FrameWriter:
         self._store(builder, state, tail)
         if unfinished is not None:
             made.program.stores["unfinished"] = unfinished
+        share(made.program)
         return made
 
     def _own_step(
@@ -158,7 +161,9 @@ class FrameWriter:
         if name not in self.constants:
             value: Value = self.attributes.constants[name]
             scope = Scope(self.seed, self.emitter.path, self.constant, None, lambda inner: False)  # type: ignore[arg-type]
-            self.constants[name] = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
+            found = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
+            assert isinstance(found, Uniform)
+            self.constants[name] = found
         return self.constants[name]
 
     def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
@@ -167,7 +172,7 @@ class FrameWriter:
         scope = self._scope(builder, self._reader(builder, made, state, lambda: made.time(builder, ("middle", k))))
         clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")})
         writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
-        return Moment(builder, made.time(builder, ("length", k)), lambda: made.time(builder, ("half", k)), writer)
+        return Moment(builder, made.time(builder, "length"), lambda: made.time(builder, "half"), writer)
 
     def _share(self, writer: ValueWriter) -> ValueWriter:
         writer.shared = self.shared

@@ -133,7 +133,7 @@ def find_step_values(steps: StepValues, time: float, frame: int, precision: int)
     if not steps.exports:
         return {}
     values = _run(steps.builder, {"time": time, "frame": float(frame)}, precision)
-    return {id(uniform): values[id(column)] if isinstance(column, Column) else column.value for uniform, column in steps.exports}
+    return {id(uniform): found.value if isinstance(found, Uniform) else values[id(found)] for uniform, found in steps.exports}
 
 
 def folded_call(builder: Builder, precision: int, function: Function, *operands: Operand, name: str = "") -> Operand:
