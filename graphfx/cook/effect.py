@@ -7,6 +7,7 @@ effect.cook("out")
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -85,30 +86,37 @@ class Effect:
         return written
 
     def _cooked(self, out: Path, frames: list[int], threads: int) -> Iterator[FrameReport]:
-        simulation = self.simulation(threads)
+        """Yield the reports of frames as their files are there; a file is written while the next frame is made."""
         wanted = set(self._checked(frames))
         warming = warm.start() if frames else None
-        for frame in simulation.frames(frames[-1]) if frames else ():
-            if frame not in wanted:
-                continue
-            if warming is not None:
-                warming.wait()
-            films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
-            files = tuple(self._write(image, film, frame, out) for image, film in films)
-            yield FrameReport(
-                frame,
-                sum(particles.alive for particles in simulation.particles.values()),
-                sum(film.fragments for _, film in films),
-                sum(film.dropped for _, film in films),
-                sum(particles.unfinished for particles in simulation.particles.values()),
-                files,
-            )
+        simulation = self.simulation(threads)
+        with ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as writer:
+            waiting: tuple[FrameReport, list[Future[None]]] | None = None
+            for frame in simulation.frames(frames[-1]) if frames else ():
+                if frame not in wanted:
+                    continue
+                if warming is not None:
+                    warming.wait()
+                films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
+                files = [out / file_name(str(image.value("file")), self.flat.name, frame) for image in self.plan.images]
+                if waiting is not None:
+                    yield _finished(*waiting)
+                jobs = [writer.submit(_write, file, *drawn) for file, drawn in zip(files, films, strict=True)]
+                waiting = self._report(frame, simulation, [film for _, film in films], files), jobs
+            if waiting is not None:
+                yield _finished(*waiting)
 
-    def _write(self, image: ImagePlan, film: Film, frame: int, out: Path) -> Path:
-        file = out / file_name(str(image.value("file")), self.flat.name, frame)
-        file.parent.mkdir(parents=True, exist_ok=True)
-        write_png(file, _exposed(image, film), _background(image))
-        return file
+    @staticmethod
+    def _report(frame: int, simulation: Simulation, films: list[Film], files: list[Path]) -> FrameReport:
+        particles = simulation.particles.values()
+        return FrameReport(
+            frame,
+            sum(each.alive for each in particles),
+            sum(film.fragments for film in films),
+            sum(film.dropped for film in films),
+            sum(each.unfinished for each in particles),
+            tuple(files),
+        )
 
     def _checked(self, frames: list[int]) -> list[int]:
         time = self.flat.time
@@ -149,6 +157,18 @@ class Effect:
 
         plan = self.plan.images[image]
         return Image.fromarray(eight_bit(_exposed(plan, self.film(frame, threads, image)), _background(plan)))
+
+
+def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:
+    """Wait until a frame's files are written; raise what kept them from it."""
+    for job in jobs:
+        job.result()
+    return report
+
+
+def _write(file: Path, image: ImagePlan, film: Film) -> None:
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_png(file, _exposed(image, film), _background(image))
 
 
 def _background(image: ImagePlan) -> tuple[float, float, float] | None:
