@@ -16,13 +16,14 @@ from graphfx.plan.make import EmitterPlan, plain_value
 class Births:
     """The births of one emitter. `made` is the integral of the rate so far; the k-th particle is born as it passes k.
 
-    For a constant rate that instant is begin + k / rate whatever the frames are; a rate that changes is
-    taken at the middle of each interval.
+    For a constant rate that instant is begin + k / rate whatever the frames are, so the 0th is born as the emitter
+    begins. A rate that changes is taken at the middle of each interval; `following` is the number of the next birth.
     """
 
     plan: EmitterPlan
     start: float
     made: float = 0.0
+    following: int = 0
 
     def __post_init__(self) -> None:
         """Note when the emitter begins and ends."""
@@ -33,7 +34,8 @@ class Births:
     def at_start(self) -> np.ndarray:
         """Return the times of the particles born at the very beginning: the first, if its time is the start."""
         rate = float(plain_value(self.rate, self.start))
-        return np.full(1 if rate > 0 and self.begin == self.start and self.finish > self.start else 0, self.start)
+        self.following = 1 if rate > 0 and self.begin == self.start and self.finish > self.start else 0
+        return np.full(self.following, self.start)
 
     def within(self, interval: Interval) -> np.ndarray:
         """Return the times of birth in (start, end], in order [s]."""
@@ -46,7 +48,8 @@ class Births:
         if not rate > 0:
             return np.zeros(0)
         before, self.made = self.made, self.made + rate * (high - low)
-        numbers = np.arange(math.floor(before) + 1, math.floor(self.made) + 1)
+        numbers = np.arange(self.following, math.floor(self.made) + 1)
+        self.following += len(numbers)
         return np.clip(low + (numbers - before) / rate, low, high)
 
     def _steady(self, rate: float, interval: Interval, high: float) -> np.ndarray:
