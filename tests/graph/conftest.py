@@ -10,7 +10,7 @@ import pytest
 from graphfx.node import Library, bundled_root
 
 HERE = Path(__file__).parent
-LANGUAGE = ("emitters/emit", "operators/stack", "operators/set", "renders/camera", "renders/image")
+LANGUAGE = ("emitters/emit", "operators/stack", "renders/camera", "renders/image")
 
 
 @pytest.fixture(scope="session")
