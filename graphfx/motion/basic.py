@@ -128,18 +128,15 @@ def sims_move(position: Any, before: Any, velocity: Any, dt: Any) -> Any:
     return position + (before + velocity) * (dt * 0.5)
 
 
-@MOTION.function("vec3 vec3 float vec3 float float float", "vec3 vec3 bool")
+@MOTION.function("vec3 vec3 float vec3 float float float", "vec3 vec3")
 def sims_bounce(position: Any, velocity: Any, distance: Any, normal: Any, resilience: Any, friction: Any, threshold: Any) -> Any:
     """P' = P - 2 ((P - S) . N) N, V' = (1 - mu) Vt - eps Vn, for what has passed the surface. [Sims 1990, 3.4.3]
 
-    The third result tells whether the particle was inside. Friction does not act below `threshold` [m/s].
+    Friction does not act below `threshold` [m/s].
     """
-    inside = distance < 0.0
     along = normal * dot(velocity, normal)
-    across = velocity - along
     slowed = where(length(velocity) < threshold, 0.0, friction)
-    bounced = across * (1.0 - slowed) - along * resilience
-    return where(inside, position - normal * (distance * 2.0), position), where(inside, bounced, velocity), inside
+    return position - normal * (distance * 2.0), (velocity - along) * (1.0 - slowed) - along * resilience
 
 
 @MOTION.function("vec3", "float")

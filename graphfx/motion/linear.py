@@ -28,29 +28,39 @@ def damped_fall(position: Any, velocity: Any, gravity: Any, damping: Any, dt: An
     return position + velocity * first + gravity * (phi2(x) * dt * dt), velocity * exp(x) + gravity * first
 
 
-@function("vec3 vec3 vec3 float", "vec3 vec3")
-def spin(position: Any, velocity: Any, rate: Any, dt: Any) -> Any:
-    """Turn the velocity about w by |w| dt while it carries the particle along: a helix. [Sims 1990, 3.4.2]
-
-    With t = |w| dt, W = w x V and L = w (w . V):
-    V' = V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2, and P' the integral of it.
-    """
+@function("vec3 float", "float float float float")
+def spin_factors(rate: Any, dt: Any) -> Any:
+    """(cos t, sin t / t, (1 - cos t) / t^2, (t - sin t) / t^3) for t = |w| dt: what `spin` takes."""
     angle = length(rate) * dt
     _, c = sincos(angle)
+    return c, sinc(angle), cosinc(angle), sin3(angle)
+
+
+@function("vec3 vec3 vec3 float float float float float", "vec3 vec3")
+def spin(position: Any, velocity: Any, rate: Any, dt: Any, c: Any, wave: Any, bow: Any, curl: Any) -> Any:
+    """Turn the velocity about w by |w| dt while it carries the particle along: a helix. [Sims 1990, 3.4.2]
+
+    With t = |w| dt, W = w x V dt and L = w (w . V) dt^2:
+    V' = V cos t + W sin t / t + L (1 - cos t) / t^2, and P' the integral of it.
+    """
     turned = cross(rate, velocity) * dt
     kept = rate * (dot(rate, velocity) * dt * dt)
-    bow = cosinc(angle)
-    wave = sinc(angle)
-    moved = position + (velocity * wave + turned * bow + kept * sin3(angle)) * dt
+    moved = position + (velocity * wave + turned * bow + kept * curl) * dt
     return moved, velocity * c + turned * wave + kept * bow
 
 
-@function("vec3 vec3 float", "vec3")
-def turn(velocity: Any, rate: Any, dt: Any) -> Any:
-    """Turn a vector about w by |w| dt: V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2."""
+@function("vec3 float", "float float float")
+def turn_factors(rate: Any, dt: Any) -> Any:
+    """(cos t, sin t / t, (1 - cos t) / t^2) for t = |w| dt: what `turn` takes."""
     angle = length(rate) * dt
     _, c = sincos(angle)
-    return velocity * c + cross(rate, velocity) * (sinc(angle) * dt) + rate * (dot(rate, velocity) * dt * dt * cosinc(angle))
+    return c, sinc(angle), cosinc(angle)
+
+
+@function("vec3 vec3 float float float float", "vec3")
+def turn(velocity: Any, rate: Any, dt: Any, c: Any, wave: Any, bow: Any) -> Any:
+    """Turn a vector about w by |w| dt: V cos t + W dt sin t / t + L dt^2 (1 - cos t) / t^2."""
+    return velocity * c + cross(rate, velocity) * (wave * dt) + rate * (dot(rate, velocity) * dt * dt * bow)
 
 
 def _complex_phi(x: Any, y: Any, real: Any, imaginary: Any, next_real: float) -> Any:

@@ -37,14 +37,12 @@ class Contacts:
         builder = moment.builder
         for surface in self.surfaces:
             distance, normal = self._distance(surface, moment, state)
+            inside = self.motion.under_conditions(surface, moment).call(contact.is_inside, distance, name="inside")
             if self.motion.method == "sims":
                 response = self._response(surface, moment, ("resilience", "friction", "friction_threshold"))
-                hit = Column("hit", "bool")
-                into = (state.position, state.velocity, hit)
-                inner = self.motion.under_conditions(surface, moment)
-                inner.call(basic.sims_bounce, *into[:2], distance, normal, *response, into=into)  # type: ignore[arg-type]
+                into = (state.position, state.velocity)
+                builder.under(inside).call(basic.sims_bounce, *into, distance, normal, *response, into=into)  # type: ignore[arg-type]
                 continue
-            inside = self.motion.under_conditions(surface, moment).call(contact.is_inside, distance, name="inside")
             event = inside if event is None else builder.call(basic.either, event, inside, name="event")
         return event
 

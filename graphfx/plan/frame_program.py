@@ -13,7 +13,8 @@ from graphfx.program import Builder, Operand, Program, Uniform
 @dataclass
 class FrameProgram:
     """A program with what each run must find: `steps` are the values of each substep, and `times` the uniforms
-    that hold times of the frame, by name: ("middle", k), ("length", k), ("half", k), ("end", k), "start", "opening"."""
+    that hold times of the frame, by name: "length" and "half" of a step, ("start", k), ("middle", k), ("end", k),
+    "opening", "frame start"."""
 
     program: Program
     steps: list[StepValues]

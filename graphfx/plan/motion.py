@@ -259,7 +259,8 @@ class Motion:
         both: Any = (position, velocity)
         constant = total.constant or ZERO
         if total.turning is not None and total.constant is None and total.damping is None:
-            builder.call(linear.spin, *both, total.turning, dt, into=both)
+            factors = builder.call(linear.spin_factors, total.turning, dt, name="factor")
+            builder.call(linear.spin, *both, total.turning, dt, *factors, into=both)
         elif total.turning is not None:
             damping = total.damping or Uniform("0", "float", 0.0)
             builder.call(linear.spiral_fall, *both, constant, damping, total.turning, dt, into=both)
@@ -293,6 +294,7 @@ class Motion:
         if "damping" in terms:
             builder.call(basic.sims_scale, velocity, terms["damping"], moment.dt, into=velocity)  # type: ignore[arg-type]
         if "turning" in terms:
-            builder.call(linear.turn, velocity, terms["turning"], moment.dt, into=velocity)  # type: ignore[arg-type]
+            factors = builder.call(linear.turn_factors, terms["turning"], moment.dt, name="factor")
+            builder.call(linear.turn, velocity, terms["turning"], moment.dt, *factors, into=velocity)  # type: ignore[arg-type]
         if "applied" in terms:
             builder.call(basic.advance, state.position, terms["applied"], moment.dt, into=state.position)  # type: ignore[arg-type]
