@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from graphfx.graph.document import document_of
 from graphfx.graph.format import canonical
-from graphfx.node import Library, NodeType, Parameter
+from graphfx.node import INFINITY, NUMERIC_TYPES, Library, NodeType, Parameter
 
 
 def first_line(node_type: NodeType) -> str:
@@ -86,23 +87,48 @@ def sample(node_type: NodeType) -> dict[str, Any]:
     source: dict[str, Any] = {"type": "emit", "rate": 200, "life": 2,
                               "set": {"position": {"in_sphere": {"radius": 1}}, "velocity": [0, 1, 0]}}
     nodes: dict[str, Any] = {"source": source}
-    seen = "source"
+    ops: list[dict[str, Any]] = []
     if node_type.kind == "values":
         if node_type.result[0] == "vec3":
-            source["set"]["position"] = {node_type.name: {}}
+            source["set"]["position"] = {node_type.name: given(node_type)}
         else:
-            source |= {"values": {"speed": {node_type.name: {}}}}
+            source |= {"values": {"speed": {node_type.name: given(node_type)}}}
             source["set"]["velocity"] = {"expr": "vec(0, speed, 0)"}
-    elif node_type.kind == "operators" and node_type.name != "stack":
-        given: dict[str, Any] = {"set": {"radius": {"expr": "0.02 * (1 - age / life)"}}} if node_type.name == "set" else {}
-        nodes["motion"] = {"type": "stack", "from": "source", "ops": [{"type": node_type.name, **given}]}
-        seen = "motion"
-    elif node_type.name == "stack":
-        nodes["motion"] = {"type": "stack", "from": "source", "ops": [{"type": "gravity"}, {"type": "vortex"}]}
-        seen = "motion"
+    elif node_type.role == "stack":
+        ops = [{"type": "gravity"}, {"type": "vortex"}]
+    elif node_type.kind == "operators":
+        ops = [{"type": node_type.name, **given(node_type)}]
     elif node_type.kind == "selectors":
-        nodes["chosen"] = {"type": node_type.name, "from": "source"}
-        seen = "chosen"
+        nodes["chosen"] = {"type": node_type.name, "from": "source", **given(node_type)}
+    if ops:
+        nodes["motion"] = {"type": "stack", "from": "source", "ops": ops}
+    seen = list(nodes)[-1]
     nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
     nodes["frames"] = {"type": "image", "from": [seen], "camera": "view", "size": [640, 360]}
     return {"graphfx": 1, "time": {"frames": [1, 48]}, "nodes": nodes}
+
+
+def given(node_type: NodeType) -> dict[str, Any]:
+    """Return the parameters that a sample must state: required ones, and one where the defaults do nothing."""
+    stated = {name: example(parameter) for name, parameter in node_type.parameters.items() if parameter.required}
+    decisive = [parameter for name, parameter in node_type.parameters.items() if re.search(rf"\b{name}\b", node_type.neutral)]
+    if decisive and not stated and not any(map(_differs_from_zero, decisive)):
+        stated[decisive[0].name] = example(decisive[0])
+    return stated
+
+
+def _differs_from_zero(parameter: Parameter) -> bool:
+    return any(parameter.default) if isinstance(parameter.default, tuple) else bool(parameter.default)
+
+
+def example(parameter: Parameter) -> Any:
+    """Return a value that a parameter takes, and that is not zero where it need not be."""
+    if parameter.choices:
+        return parameter.choices[0]
+    if NUMERIC_TYPES.get(parameter.type) == 3:
+        return [1, 0, 0]
+    if parameter.type == "bool":
+        return True
+    low = -INFINITY if parameter.min is None else parameter.min
+    high = INFINITY if parameter.max is None else parameter.max
+    return _plain(min(max(1.0, low), high)) if parameter.type in NUMERIC_TYPES else parameter.name

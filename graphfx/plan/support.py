@@ -8,6 +8,7 @@ from typing import Any
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal, Name, Node, Random, Value, children
+from graphfx.node import NUMERIC_TYPES
 
 MOVING_ROLES = ("linear", "flow", "acceleration", "surface")
 SCOPES = ("life", "particle", "frame", "graph")
@@ -38,6 +39,14 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
             place,
             path,
         )
+    for parameter in node.node_type.parameters.values() if not node.node_type.language else ():
+        if parameter.type not in NUMERIC_TYPES:
+            yield Problem(
+                f"its parameter '{parameter.name}' is a {parameter.type}, and functions for particles are given "
+                f"{', '.join(NUMERIC_TYPES)} alone in this version",
+                node.node_type.location,
+                node.node_type.name,
+            )
     if node.when and node.when != "step":
         yield Problem(f"'when': '{node.when}' is not carried out by this version", place, path)
     if isinstance(node.only, Literal) and node.only.type == "selector":

@@ -115,7 +115,7 @@ def drift(
     dt: float,
     wind: Vec3 = param(required=True, unit="m/s", doc="Where to."),
     share: float = param(required=True, min=0, max=0.5, doc="How much of it."),
-    mood: str = param(required=True, choices=("soft", "hard"), doc="How."),
+    steady: bool = param(required=True, doc="Whether it blows evenly."),
 ) -> Vec3:
     """Return the position."""
     return position + wind * (dt * share)
@@ -135,3 +135,15 @@ def test_library_adds_nodes(invoke, folder: Path) -> None:
     assert invoke("check", "sample.json", "--library", "mine") == (0, "sample.json: nothing is wrong\n", "")
     assert invoke("nodes", "--library", "none") == (
         1, "", "none: the library folder none has neither 'nodes' nor 'graphs' in it\n")
+
+
+def test_text_has_no_place_on_lanes(invoke, folder: Path) -> None:
+    """A node that asks for a text per particle is refused at its own line, and is no mistake of graphfx."""
+    node = folder / "mine" / "nodes" / "operators" / "drift.py"
+    node.parent.mkdir(parents=True)
+    node.write_text(DRIFT.replace("steady: bool = param(", "mood: str = param("))
+    told = invoke("nodes", "drift", "--library", "mine").out
+    (folder / "sample.json").write_text(told[told.index("{"):])
+    assert invoke("check", "sample.json", "--library", "mine") == (
+        1, "", f"{node}:6: drift: its parameter 'mood' is a string, and functions for "
+        "particles are given float, int, vec3, point, direction, color, bool alone in this version\n")
