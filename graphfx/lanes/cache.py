@@ -120,8 +120,9 @@ class CheckedCache(_Cache):
         except OSError:
             content = b""
         if len(content) > 32 and hashlib.sha256(content[32:]).digest() == content[:32]:
-            return CompileResult._rebuild(target_context, *pickle.loads(content[32:]))
-        if content:
+            with suppress(ImportError):  # what was made from a module that is not here now is made again
+                return CompileResult._rebuild(target_context, *pickle.loads(content[32:]))
+        elif content:
             _remove(file)
         for listener in listeners:
             listener(self.name)

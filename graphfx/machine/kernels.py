@@ -140,6 +140,7 @@ def _kernel_of(function: Function, precision: int, width: int) -> Kernel:
     members = function.bundle.functions if function.bundle else [function]
     files = sorted(set().union(*(register(member.body) for member in members)))
     closed = [repr(cell.cell_contents).encode() for member in members for cell in member.body.__closure__ or ()]
+    closed += [member.body.__module__.encode() for member in members]
     stamp = digest_of([engine_digest("math", "lanes", "machine").encode(), *(file.read_bytes() for file in files), *closed])
     name = function.bundle.name if function.bundle else function.name
     source, named = kernel_source(function, width)

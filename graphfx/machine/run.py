@@ -17,8 +17,8 @@ from graphfx.store.threads import parallel
 NO_ROWS = np.zeros(0, np.int64)
 NO_BITS = np.zeros(0, np.uint16)
 _KINDS = {np.dtype(np.uint64): ID, np.dtype(np.uint8): MASK, np.dtype(np.int32): WORD}
-PIECE = 16
-"""Blocks that a thread takes at a time."""
+PIECE = 64
+"""Blocks that a thread takes at a time, at most; fewer where there are not enough for all threads."""
 
 
 @dataclass
@@ -81,15 +81,15 @@ def run(
     rejected = np.zeros(blocks * MASK_WORDS if program.rejects else 0, np.uint16)
     rejects = made.place(program.rejects) if program.rejects else -1
     unsigned = np.uint32 if made.precision == 32 else np.uint64
-    pieces = (blocks + PIECE - 1) // PIECE
+    size = PIECE if threads == 1 else min(PIECE, (blocks + 4 * threads - 1) // (4 * threads))
 
     def piece(number: int) -> None:
         scratch, own = _aligned(template), masks.copy()
-        counts = np.array([number * PIECE, min((number + 1) * PIECE, blocks), rows.count], np.int64)
+        counts = np.array([number * size, min((number + 1) * size, blocks), rows.count], np.int64)
         run_blocks(made.code, loads, stores, scratch, scratch.view(unsigned), own, rows.listed, rows.excluded, rejected,
                    rejects, counts, now)
 
-    parallel(piece, pieces, threads)
+    parallel(piece, (blocks + size - 1) // size, threads)
     return rows_of(rejected, rows)
 
 
@@ -112,6 +112,3 @@ def bits_of(listed: np.ndarray, count: int) -> np.ndarray:
 def uniform_values(pairs: Mapping[Uniform, Any]) -> dict[int, Any]:
     """Return the mapping that `run` takes."""
     return {id(uniform): value for uniform, value in pairs.items()}
-
-
-__all__ = ["Rows", "bits_of", "rows_of", "run", "uniform_values"]
