@@ -136,8 +136,8 @@ def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[I
     shown = any(node.path in dict(image.streams) for image in images)
     shutter = max(float(image.value("shutter")) for image in images) if shown else 0.0
     attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)
-    method, reason = choose_method(movers, flat)
     has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+    method, reason = choose_method(movers, flat, has_velocity)
     motion = Motion(movers, method, has_velocity)
     writer = FrameWriter(node, attributes, motion, flat.seed, flat.time.precision, flat.time.substeps)
     moves = bool(movers) or has_velocity
@@ -165,8 +165,15 @@ def _nonzero(value: Value | None) -> bool:
     return value is not None and not (isinstance(value, Literal) and not any(value.value))
 
 
-def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
-    """Return how the motion is computed, and why: the most exact form that the operators allow."""
+def _has_role(movers: list[Mover], role: str) -> bool:
+    return any(mover.role == role for mover in movers)
+
+
+def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[str, str]:
+    """Return how the motion is computed, and why: the most exact form that the operators allow.
+
+    `drifts` tells whether velocities carry particles beside the operators.
+    """
     asked = flat.time.method
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
@@ -174,6 +181,8 @@ def choose_method(movers: list[Mover], flat: FlatGraph) -> tuple[str, str]:
     names = ", ".join(mover.node.node_type.name for mover in movers if mover.role != "surface")
     if not inner:
         return "exact", f"all motion is linear ({names or 'free flight'}): one exact step"
+    if len(inner) == 1 and inner[0].role == "flow" and inner[0].time_free and not drifts and not _has_role(movers, "linear"):
+        return "exact", f"one flow and nothing else ({names}): one exact step"
     if asked == "exact":
         raise GraphError(
             Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")

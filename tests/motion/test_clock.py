@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from itertools import pairwise
 
 import pytest
 
@@ -26,7 +27,7 @@ def test_intervals_fill_the_time(fps, preroll):
     clock = Clock(float(fps), 3, preroll)
     intervals = list(clock.intervals(20))
     assert intervals[0].start == clock.start == pytest.approx(-preroll, abs=1e-6)
-    assert all(one.end == other.start for one, other in zip(intervals, intervals[1:], strict=False))
+    assert all(one.end == other.start for one, other in pairwise(intervals))
     assert all(interval.end == clock.time_of(interval.frame) for interval in intervals)
     assert all(0 < interval.length <= (1 + 1e-9) / fps for interval in intervals)
     assert intervals[-1].frame == 20 and [i.frame for i in intervals] == list(range(intervals[0].frame, 21))

@@ -1,0 +1,122 @@
+"""Vortices, alone and together, and the order of what is composed of flows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from .one_particle import LIBRARY, effect_of, path
+from .test_linear import array, vector
+
+VORTEX = LIBRARY["vortex"].function
+
+
+def turned(position, dt, center=(0, 0, 0), axis=(0, 1, 0), magnitude=1.0, tightness=1.5, reach=np.inf, lift=0.0):
+    """Return the position after a vortex."""
+    numbers = [np.float64(number) for number in (magnitude, tightness, reach, lift)]
+    with np.errstate(all="ignore"):
+        return array(VORTEX(vector(*position), np.float64(dt), vector(*center), vector(*axis), *numbers))
+
+
+@pytest.mark.parametrize(
+    "radius, tightness, magnitude", [(1, 0, 1), (2, 1, 3), (0.5, 1.5, -2), (3, 2, 5), (1e-3, 4, 1), (1e8, 0.5, 1)]
+)
+def test_quarter_turn_falls_off_with_radius(radius, tightness, magnitude):
+    """A turn takes magnitude / R^tightness dt; a right-handed quarter about +y takes +z to +x, off the axis's origin too."""
+    dt = np.pi / 2 / (abs(magnitude) / radius**tightness)
+    after = turned((4, 70, -2 + radius), dt, (4, 7, -2), (0, 1, 0), magnitude, tightness)
+    np.testing.assert_allclose(after - [4, 70, -2], [np.sign(magnitude) * radius, 0, 0], rtol=0, atol=2e-12 * radius + 1e-15)
+
+
+@pytest.mark.parametrize("tightness", [0, 0.5, 1.5, 4])
+@pytest.mark.parametrize("radius", [1e-3, 1, 1e4, 1e8])
+def test_radius_and_height_are_kept(radius, tightness):
+    """After 1000 steps R and the height differ by rounding alone, and the angle is that of one step."""
+    position, dt = np.array([radius, 5.0, 0.0]), 0.1 * radius**tightness
+    for _ in range(1000):
+        position = turned(position, dt, tightness=tightness)
+    once = turned((radius, 5, 0), 1000 * dt, tightness=tightness)
+    assert abs(np.hypot(position[0], position[2]) / radius - 1) <= 1e-12 and position[1] == 5
+    np.testing.assert_allclose(position, once, rtol=0, atol=(1e-11 + 100 * 2.2e-16 * 100) * radius)
+
+
+@pytest.mark.parametrize("position", [(0, 0, 0), (0, 1e300, 0), (1e-200, 0, 0), (1e200, 0, 0)])
+def test_extremes_stay_finite(position):
+    """On the axis, at any height, nothing moves; next to it and far from it all is finite."""
+    after = turned(position, 1 / 24)
+    assert np.isfinite(after).all()
+    assert position[0] or tuple(after) == position
+
+
+def test_fade_ends_at_the_range():
+    """At the range and beyond there is no turn, and just within it next to none."""
+    for R, most in ((2.0, 0), (2.5, 0), (1.999, 1e-5)):
+        assert abs(turned((R, 0, 0), 1.0, magnitude=10, reach=2.0)[2]) <= most
+    assert abs(turned((1, 0, 0), 1.0, magnitude=1, reach=2.0)[2]) > 0.4
+
+
+def test_lift_is_a_speed_along_the_axis():
+    """Lift carries along the axis at lift / R^tightness, and keeps R."""
+    after = turned((0, 0, 2), 0.5, axis=(0, 1, 0), magnitude=0.0, tightness=1, lift=3)
+    np.testing.assert_allclose(after, [0, 0.75, 2], rtol=1e-14)
+
+
+FIELDS = {
+    "two vortices": [
+        {"type": "vortex", "magnitude": 3},
+        {"type": "vortex", "id": "b", "center": [1.5, 0, 0], "magnitude": -2, "axis": [0.3, 1, 0]},
+    ],
+    "vortex and gravity": [{"type": "vortex", "magnitude": 3}, {"type": "gravity"}, {"type": "damp", "damping": 0.5}],
+    "moving vortex": [{"type": "vortex", "magnitude": 2, "center": {"expr": "vec(time, 0, sin(2 * time))"}}, {"type": "gravity"}],
+}
+
+
+@pytest.mark.parametrize("ops", FIELDS)
+def test_composition_is_of_second_order(ops):
+    """Halving the step divides the error by four."""
+
+    def end(steps: int) -> np.ndarray:
+        return path(FIELDS[ops], (0.7, 0.2, 0.4), (0.3, 1, 0), 4, 4, substeps=steps)[0][-1]
+
+    exact = end(256)
+    errors = [np.linalg.norm(end(steps) - exact) for steps in (4, 8, 16)]
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert (orders >= 1.9).all() and (orders < 2.4).all(), orders
+
+
+def test_order_of_commuting_operators_does_not_matter():
+    """Linear operators in any order give the same motion to 1e-13."""
+    ops = [
+        {"type": "gravity"},
+        {"type": "damp", "damping": 2},
+        {"type": "spiral", "speed": 5},
+        {"type": "translate", "rate": [1, 2, 3]},
+    ]
+    ends = [path(order, (0, 0, 0), (1, 2, 3), spiral_axis=[1, 1, 0])[0][-1] for order in (ops, ops[::-1], ops[2:] + ops[:2])]
+    for other in ends[1:]:
+        np.testing.assert_allclose(other, ends[0], rtol=0, atol=1e-13 * 10)
+
+
+def test_methods_are_told_with_their_reasons():
+    """All-linear motion is exact; flows are composed; the paper's scheme is used when asked for."""
+    told = [
+        effect_of(ops, (0, 0, 0), (1, 0, 0), method=method).plan.emitters["one"]
+        for ops, method in (
+            ([{"type": "gravity"}, {"type": "spiral"}], "auto"),
+            (FIELDS["two vortices"], "auto"),
+            ([{"type": "gravity"}], "sims"),
+        )
+    ]
+    assert [(plan.method, plan.reason) for plan in told] == [
+        ("exact", "all motion is linear (gravity, spiral): one exact step"),
+        ("strang", "flows that do not commute (vortex, vortex): composed symmetrically, second order"),
+        ("sims", "asked for: the paper's scheme, first order, operations in stack order"),
+    ]
+
+
+def test_one_vortex_is_exact():
+    """One vortex and nothing else is an exact flow: one step is a thousand, and the plan says so."""
+    found = effect_of(FIELDS["two vortices"][:1], (1, 2, 0.5))
+    assert found.plan.emitters["one"].method == "exact"
+    once, often = (path(FIELDS["two vortices"][:1], (1, 2, 0.5), fps=fps, frames=fps)[0][-1] for fps in (1, 1000))
+    np.testing.assert_allclose(once, often, rtol=0, atol=1e-11)
