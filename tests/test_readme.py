@@ -75,8 +75,6 @@ def test_every_command_and_exit_code_is_told() -> None:
 @pytest.mark.parametrize("target", re.findall(r"\]\(([^)#]+)\)", README))
 def test_links_lead_somewhere(target: str) -> None:
     """What the README links to is there."""
-    if target == "graphs/effects/snow.png" and not (ROOT / target).exists():
-        pytest.xfail("the picture is still to be cooked")
     assert target.startswith("https://") or (ROOT / target).exists()
 
 

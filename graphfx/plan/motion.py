@@ -30,9 +30,7 @@ class State:
         """Return the operand of an attribute."""
         if name == "position":
             return self.position
-        if name == "velocity" and self.velocity is not None:
-            return self.velocity
-        return self.attribute(name)
+        return self.velocity if name == "velocity" and self.velocity is not None else self.attribute(name)
 
 
 @dataclass
