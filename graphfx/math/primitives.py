@@ -24,7 +24,7 @@ __all__ = ["absolute", "by_precision", "copysign", "floor", "fma", "maximum", "m
            "sqrt", "where"]
 
 NOT_A_CONDITION = "where takes a comparison, or comparisons joined by & | ~, of lane values; not {}"
-SPLIT_FORMATS = {  # bits of float(sqrt(1/2)), bits of the fraction, integer type
+SPLIT_FORMATS: dict[Any, tuple[int, int, Any]] = {  # bits of float(sqrt(1/2)), bits of the fraction, integer type
     np.float32: (0x3F3504F3, 23, np.int32),
     np.float64: (0x3FE6A09E667F3BCD, 52, np.int64),
 }
@@ -87,9 +87,9 @@ def scale2(x: Any, k: Any) -> Any:
     kind = lane_type(x, k)
     least, most = (-127, 128) if kind is np.float32 else (-1023, 1024)
     if isinstance(x, np.ndarray) or isinstance(k, np.ndarray):
-        exponent = np.clip(np.where(np.isnan(k), 0, k), least, most).astype(np.int32)
-        factor = np.ldexp(1.0, exponent, where=exponent < most, out=np.full(exponent.shape, np.inf))
-        return x * np.where(exponent > least, factor, 0.0).astype(kind)
+        exponents = np.clip(np.where(np.isnan(k), 0, k), least, most).astype(np.int32)
+        factor = np.ldexp(1.0, exponents, where=exponents < most, out=np.full(exponents.shape, np.inf))
+        return x * np.where(exponents > least, factor, 0.0).astype(kind)
     exponent = least if not k > least else most if k >= most else int(k)
     if exponent == least:
         return x * kind(0.0)
@@ -114,7 +114,7 @@ def split2(x: Any) -> Any:
 class by_precision:
     """A function that runs `single` when its first argument is float32, `double` when it is float64.
 
-    A Python float counts as a double. The block machine chooses by type in the same way, when it
+    Of a Vec3 its x counts. A Python float counts as a double. The block machine chooses by type in the same way, when it
     compiles; it finds the two functions as `.single` and `.double`.
     """
 
@@ -129,7 +129,8 @@ class by_precision:
 
     def __call__(self, *arguments: Any) -> Any:
         """Run the function of the first argument's precision."""
-        chosen = self.single if lane_type(arguments[0]) is np.float32 else self.double
+        first = arguments[0]
+        chosen = self.single if lane_type(getattr(first, "x", first)) is np.float32 else self.double
         return chosen(*arguments)
 
     def __repr__(self) -> str:
