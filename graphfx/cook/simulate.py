@@ -150,8 +150,11 @@ class Simulation:
         if plan.main is None or plan.own is None:
             return
         dying = particles.dying[particles.dying < before]
-        uniforms = self._uniforms(plan.main, interval)
-        rejected = self._run(plan.main.program, particles, before, None, dying, uniforms, {}, interval.start)
+        if interval.length * self.clock.fps > 1 - 1e-9:
+            uniforms = self._uniforms(plan.main, interval)
+            rejected = self._run(plan.main.program, particles, before, None, dying, uniforms, {}, interval.start)
+        else:  # a shorter interval begins the preroll; the shutter opens in another of its steps than is usual
+            rejected = np.arange(before)
         listed = np.concatenate([np.union1d(dying, rejected), particles.born]).astype(np.int64)
         if len(listed):
             self._own_time(particles, interval, listed, before, death)
