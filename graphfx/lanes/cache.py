@@ -112,8 +112,10 @@ class CheckedCache(_Cache):
         return cache_folder() / f"{self.name.rpartition('.')[2]}-{key}.code"
 
     def load_overload(self, signature: Any, target_context: Any) -> CompileResult | None:
-        """Return the stored code, or None; what is damaged is removed."""
-        target_context.refresh()
+        """Return the stored code, or None; what is damaged is removed.
+
+        Numba's registries are not loaded for that: its compiler does so when there is something to compile.
+        """
         file = self._file(signature, target_context.codegen())
         try:
             content = file.read_bytes() if self._enabled else b""
