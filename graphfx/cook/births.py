@@ -7,9 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from graphfx.errors import LimitError, Problem
 from graphfx.graph.values import Literal
 from graphfx.motion.clock import Interval
 from graphfx.plan.make import EmitterPlan, plain_value
+
+MOST = 1 << 30
+"""Births of one emitter between two frames."""
 
 
 @dataclass
@@ -48,7 +52,7 @@ class Births:
         if not rate > 0:
             return np.zeros(0)
         before, self.made = self.made, self.made + rate * (high - low)
-        numbers = np.arange(self.following, math.floor(self.made) + 1)
+        numbers = self._numbers(self.following, self.made)
         self.following += len(numbers)
         return np.clip(low + (numbers - before) / rate, low, high)
 
@@ -56,5 +60,12 @@ class Births:
         if not rate > 0:
             return np.zeros(0)
         already = math.floor((interval.start - self.begin) * rate) + 1 if interval.start >= self.begin else 0
-        numbers = np.arange(already, math.floor((high - self.begin) * rate) + 1)
+        numbers = self._numbers(already, (high - self.begin) * rate)
         return np.clip(self.begin + numbers / rate, interval.start, interval.end)
+
+    def _numbers(self, first: int, made: float) -> np.ndarray:
+        """Return the numbers of the births from `first` until the integral of the rate is `made`."""
+        if not made - first < MOST:
+            message = f"{made - first:,.0f} particles would be born in one frame, and the limit is {MOST:,}; lower the rate"
+            raise LimitError(Problem(message, self.plan.node.location, f"nodes.{self.plan.path}.rate"))
+        return np.arange(first, math.floor(made) + 1)

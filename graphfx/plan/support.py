@@ -47,6 +47,7 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
                 node.node_type.location,
                 node.node_type.name,
             )
+    yield from _of_type(node)
     if node.when and node.when != "step":
         yield Problem(f"'when': '{node.when}' is not carried out by this version", place, path)
     if isinstance(node.only, Literal) and node.only.type == "selector":
@@ -56,10 +57,33 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
         yield from _of_value(value, value)
 
 
+def _of_type(node: FlatNode) -> Iterator[Problem]:
+    """Yield what a node type declares that is not carried out."""
+    declared, name = node.node_type, node.node_type.name
+    if "id" in declared.reserved:
+        yield Problem("functions for particles are not given 'id' in this version", declared.location, name)
+    if declared.role in ("linear", "flow", "acceleration"):
+        moved = ("position",) if declared.role == "flow" else ("position", "velocity")
+        if not (set(declared.writes) <= {"position", "velocity"} and (declared.role == "flow" or len(declared.writes) == 1)):
+            yield Problem(
+                f"a {declared.role} operator that writes {', '.join(declared.writes)} is not carried out by this version; "
+                f"it may write {' or '.join(moved)}",
+                declared.location,
+                name,
+            )
+        elif declared.role == "linear" and declared.writes == ("position",) and {"position", "velocity"} & set(declared.reads):
+            yield Problem(
+                "a linear operator whose rate of the position reads the position or the velocity is not carried out by "
+                "this version; write it as a flow, the exact change over dt",
+                declared.location,
+                name,
+            )
+
+
 def _of_value(tree: Any, place: Value) -> Iterator[Problem]:
     if isinstance(tree, Value) and tree.path:
         place = tree
-    if isinstance(tree, Name) and "." in tree.name:
+    if isinstance(tree, Name) and ("." in tree.name or tree.name == "id"):
         yield Problem(f"'{tree.name}' is not carried out by this version", place.location, place.path)
     if isinstance(tree, (Random, Node)) and tree.per not in SCOPES:
         yield Problem(

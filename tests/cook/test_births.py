@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from graphfx.cook.pictures import streaks_of
+from graphfx.errors import LimitError
 
 from .effects import effect, graph, made
 
@@ -129,3 +130,12 @@ def test_positions_do_not_depend_on_frames_or_steps():
         places.append(effect(document).simulate(fps + 1)["sky"]["position"])
     for other in places[1:]:
         np.testing.assert_allclose(other, places[0], rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("rate", [1e30, {"expr": "1e12 + time"}])
+def test_rate_beyond_all_memory_is_told(rate):
+    """More births in a frame than could ever be held are a limit, told with the place in the graph."""
+    with pytest.raises(LimitError) as caught:
+        made([], {"rate": rate}).simulate(2)
+    assert str(caught.value).endswith("particles would be born in one frame, and the limit is 1,073,741,824; lower the rate")
+    assert "nodes.sky.rate: 41," in str(caught.value)

@@ -1,0 +1,90 @@
+"""What a version does not carry out is told before any work, at its place, and never done wrongly in silence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from graphfx.errors import GraphError
+from graphfx.graph.document import document_of
+from graphfx.graph.flatten import flatten
+from graphfx.node import Library, library_roots
+from graphfx.plan.make import make_plan
+
+from .test_leaving_out import plan
+
+NODE = '''"""A node of a user."""
+
+from graphfx.math import Vec3
+from graphfx.node import operator, param
+
+
+@operator.{role}(writes={writes})
+def odd({reads}, share: float = param(0.0, doc="A number.")) -> {result}:
+    """Return something."""
+    return {value}
+'''
+ODD = {
+    "grows": (
+        "linear",
+        '"position"',
+        "position: Vec3",
+        "Vec3",
+        "position",
+        "a linear operator whose rate of the position reads the position or the velocity is not carried out by this version; "
+        "write it as a flow, the exact change over dt",
+    ),
+    "linear radius": (
+        "linear",
+        '"radius"',
+        "radius: float",
+        "float",
+        "radius",
+        "a linear operator that writes radius is not carried out by this version; it may write position or velocity",
+    ),
+    "flow radius": (
+        "flow",
+        '"radius"',
+        "radius: float",
+        "float",
+        "radius",
+        "a flow operator that writes radius is not carried out by this version; it may write position",
+    ),
+    "identity": (
+        "flow",
+        '"position"',
+        "position: Vec3, id: int",
+        "Vec3",
+        "position",
+        "functions for particles are not given 'id' in this version",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", ODD)
+def test_operators_that_would_be_done_wrongly_are_refused(case, tmp_path: Path):
+    """A declaration that the engine has no method for is told at the node's own file and line."""
+    role, writes, reads, result, value, message = ODD[case]
+    file = tmp_path / "nodes" / "operators" / "odd.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(NODE.format(role=role, writes=writes, reads=reads, result=result, value=value))
+    document = {
+        "graphfx": 1,
+        "nodes": {
+            "sky": {"type": "emit"},
+            "act": {"type": "odd", "from": "sky"},
+            "view": {"type": "camera"},
+            "frames": {"type": "image", "from": "act", "camera": "view"},
+        },
+    }
+    with pytest.raises(GraphError) as caught:
+        make_plan(flatten(document_of(document), Library(library_roots([tmp_path]))))
+    assert str(caught.value) == f"{file}:7: odd: {message}"
+
+
+@pytest.mark.parametrize("text", ["id * 0.1", "birth.radius"])
+def test_names_that_are_not_given_are_refused(text):
+    """Names of the language that have no column yet are told where they stand."""
+    with pytest.raises(GraphError, match=f"'{text.split()[0]}' is not carried out by this version"):
+        plan([{"type": "damp", "damping": {"expr": text}}])
