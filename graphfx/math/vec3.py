@@ -98,7 +98,9 @@ def rotate(v: Vec3, axis: Vec3, s: Any, c: Any) -> Vec3:
 
         along + (v - along) c + (axis x v) s,    along = axis (axis . v)
 
-    The part along the axis is untouched: about a coordinate axis it keeps its bits. [Rodrigues 1840]
+    The part along the axis is untouched: about a coordinate axis it keeps its bits. An axis whose length
+    squared is 1 + d grows the height by d (1 - c) and the radius by d s^2/2, relatively, at every turn, so
+    hand over what `unit` gives. [Rodrigues 1840]
     """
     along = axis * dot(axis, v)
     across = v - along

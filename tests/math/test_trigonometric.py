@@ -53,7 +53,8 @@ def test_the_sine_of_a_tiny_angle_is_the_angle(kind):
 
 CORNERS = [
     (0.0, 1, 0.0), (-0.0, 1, -0.0), (0.0, 0.0, 0.0), (0.0, -0.0, np.pi), (-0.0, -0.0, -np.pi), (0.0, -1, np.pi),
-    (-0.0, -1, -np.pi), (1, 0.0, np.pi / 2), (-1, 0.0, -np.pi / 2), (1, 1, np.pi / 4), (-1, -1, -3 * np.pi / 4), (np.inf, np.inf, np.pi / 4),
+    (-0.0, -1, -np.pi), (1, 0.0, np.pi / 2), (-1, 0.0, -np.pi / 2), (1, 1, np.pi / 4), (-1, -1, -3 * np.pi / 4),
+    (np.inf, np.inf, np.pi / 4),
     (np.inf, -np.inf, 3 * np.pi / 4), (-np.inf, 1, -np.pi / 2), (1, np.inf, 0.0), (1, -np.inf, np.pi), (3e38, 3e38, np.pi / 4),
     (1e-45, 1e-45, np.pi / 4), (np.nan, 0.0, np.nan), (0.0, np.nan, np.nan), (np.nan, np.inf, np.nan), (np.inf, np.nan, np.nan),
 ]
