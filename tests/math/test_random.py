@@ -111,7 +111,8 @@ def test_one_bit_anywhere_changes_half_of_the_bits():
 
 def test_keys_tell_their_parts_apart():
     """Parts of another kind, at another boundary or in another order make another key."""
-    parts = [(), (0,), ("",), (0, 0), ("", ""), (1,), ("1",), (-1,), (255,), (2**64,), ("ab", "c"), ("a", "bc"), ("abc",), ("asb",), ("a", "b"),
+    parts = [(), (0,), ("",), (0, 0), ("", ""), (1,), ("1",), (-1,),
+             (255,), (2**64,), ("ab", "c"), ("a", "bc"), ("abc",), ("asb",), ("a", "b"),
              ("c", "ab"), (1, "a"), ("a", 1), (0x61,), ("snow/fall", "speed"), ("snow", "fall/speed")]
     assert len({key_of(*p) for p in parts}) == len(parts)
 
