@@ -82,8 +82,9 @@ def test_every_turn_of_a_loop_finds_its_own():
     builder.call(basic.sum_of_numbers, a, a)
     going = builder.call(basic.is_less, a, Uniform("100", "float", 100.0))
     inner = builder.loop(going, 9)
+    everyone = inner.under(builder.mask)
     for _ in range(2):
-        inner.call(basic.copy_number, inner.call(basic.sum_of_numbers, a, a), into=x)
+        inner.call(basic.copy_number, everyone.call(basic.sum_of_numbers, a, a), into=x)
     inner.call(basic.copy_number, x, into=a)
     inner.call(basic.is_less, a, Uniform("100", "float", 100.0), into=going)
     builder.store("x", x)
