@@ -13,21 +13,16 @@ from pathlib import Path
 
 import numpy as np
 
-from graphfx.lanes.cache import cache_folder, engine_digest, listeners
+from graphfx.lanes.cache import cache_folder, digest_of, engine_digest, listeners
 
 ENOUGH = 4096
 """Particles that make the renderer sort by itself."""
 
 
 def _mark() -> Path:
-    processor = f"{os.environ.get('NUMBA_CPU_NAME', '')}{os.environ.get('NUMBA_CPU_FEATURES', '')}"
-    digest = engine_digest("math", "lanes", "store", "render")
-    return cache_folder() / f"renderer-{digest}-{abs(hash_text(processor)):x}.ready"
-
-
-def hash_text(text: str) -> int:
-    """Return a number for a text, the same in every process."""
-    return int.from_bytes(text.encode()[:64], "little") % (2**61 - 1)
+    processor = [os.environ.get(name, "").encode() for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES")]
+    digest = digest_of([engine_digest("math", "lanes", "store", "render").encode(), *processor])
+    return cache_folder() / f"renderer-{digest}.ready"
 
 
 def start() -> subprocess.Popen[bytes] | None:

@@ -25,6 +25,7 @@ import llvmlite
 import numba
 from numba.core.caching import CompileResultCacheImpl, _Cache
 from numba.core.compiler import CompileResult
+from numba.core.runtime import rtsys
 
 PACKAGE = Path(__file__).resolve().parent.parent
 
@@ -114,8 +115,10 @@ class CheckedCache(_Cache):
     def load_overload(self, signature: Any, target_context: Any) -> CompileResult | None:
         """Return the stored code, or None; what is damaged is removed.
 
-        Numba's registries are not loaded for that: its compiler does so when there is something to compile.
+        Of Numba's context only the runtime is made ready, to which stored code refers. The registries are not
+        loaded: they cost half a second, and the compiler loads them when there is something to compile.
         """
+        rtsys.initialize(target_context)
         file = self._file(signature, target_context.codegen())
         try:
             content = file.read_bytes() if self._enabled else b""

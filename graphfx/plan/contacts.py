@@ -26,7 +26,7 @@ class Contacts:
     def _distance(self, surface: Mover, moment: Moment, state: State) -> tuple[Column, Column]:
         moment.builder.note = surface.node.path
         operands = self.motion.arguments(surface, moment, state)
-        distance, normal = moment.builder.call(surface.function, *operands, name="distance")
+        distance, normal = moment.builder.call(surface.function, *operands, name="distance normal")
         return distance, normal
 
     def _response(self, surface: Mover, moment: Moment, names: tuple[str, ...]) -> list[Operand]:
@@ -121,7 +121,14 @@ class Contacts:
         builder.note = f"{surface.node.path}: find the contact"
         tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         a, at_a, b, at_b, touching, at_once = builder.call(
-            contact.start_search, start[0], end, start[1], first["velocity"], step, tolerance, name="bracket"
+            contact.start_search,
+            start[0],
+            end,
+            start[1],
+            first["velocity"],
+            step,
+            tolerance,
+            name="a at_a b at_b touching at_once",
         )
         time = builder.call(basic.copy_number, a, name="time of contact")
         side = builder.call(basic.difference, a, a, name="side")

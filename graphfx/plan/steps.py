@@ -119,7 +119,7 @@ class FrameWriter:
     ) -> None:
         """Write one turn of the loop: go to the end of the step, or to the first contact on the way."""
         step = inner.call(basic.difference, finish, now, name="step")
-        before = inner.call(basic.copy_vector, state.position, name="before")
+        before = inner.call(basic.copy_vector, state.position, name="before") if tail is not None else None
         then = inner.call(basic.copy_number, now, name="then")
         contacts = Contacts(self.motion, self.precision)
 
@@ -130,7 +130,7 @@ class FrameWriter:
         inner.call(basic.sum_of_numbers, then, step, into=now)
         reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
         inner.under(reached).call(basic.copy_number, finish, into=now)
-        if tail is not None:
+        if before is not None and tail is not None:
             inner.note = "motion blur"
             opening = made.time(inner, "opening")
             inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)

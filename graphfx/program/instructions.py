@@ -184,10 +184,12 @@ class Builder:
     def call(
         self, function: Function, *operands: Operand, into: tuple[Column, ...] | Column | None = None, name: str = ""
     ) -> Any:
-        """Write a call; return its result column, or a tuple of them."""
+        """Write a call; return its result column, or a tuple of them. `name` may name each, parted by spaces."""
         results = (into,) if isinstance(into, Column) else into
         if results is None:
-            results = tuple(Column(name or function.name, type_) for type_ in function.results)
+            names = [name or function.name] if len(function.results) == 1 else (name or function.name).split()
+            names += names[-1:] * (len(function.results) - len(names))
+            results = tuple(map(Column, names, function.results))
         self.body.append(Call(function, operands, results, self.mask, self.note))
         return results[0] if len(results) == 1 else results
 
