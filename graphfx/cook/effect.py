@@ -75,21 +75,20 @@ class Effect:
 
         `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
-        check_limits(self.plan, limits or CookLimits())
         wanted = sorted(set(frames)) if frames is not None else self.frames
         check_files(self.plan, Path(out), wanted)
         written: list[Path] = []
-        for made in self._cooked(Path(out), wanted, threads or available_threads()):
+        for made in self._cooked(Path(out), wanted, threads or available_threads(), limits):
             written += made.files
             if report is not None:
                 report(made)
         return written
 
-    def _cooked(self, out: Path, frames: list[int], threads: int) -> Iterator[FrameReport]:
+    def _cooked(self, out: Path, frames: list[int], threads: int, limits: CookLimits | None) -> Iterator[FrameReport]:
         """Yield the reports of frames as their files are there; a file is written while the next frame is made."""
         wanted = set(self._checked(frames))
+        simulation = self.simulation(threads, limits=limits)
         warming = warm.start() if frames else None
-        simulation = self.simulation(threads)
         with ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as writer:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]) if frames else ():
@@ -125,8 +124,12 @@ class Effect:
             raise UsageError(f"frame {wrong[0]} is not in the graph's frames {time.first} to {time.last}")
         return frames
 
-    def simulation(self, threads: int | None = None, reference: bool = False) -> Simulation:
-        """Return a new simulation: on the block machine, or in plain Python, which defines what is right."""
+    def simulation(self, threads: int | None = None, reference: bool = False, limits: CookLimits | None = None) -> Simulation:
+        """Return a new simulation: on the block machine, or in plain Python, which defines what is right.
+
+        Raise LimitError for what would not fit.
+        """
+        check_limits(self.plan, limits or CookLimits())
         executor: Executor = (
             ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
         )

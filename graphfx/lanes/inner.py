@@ -1,4 +1,4 @@
-"""`inner` and `compiled_plain`: for functions that only work on arrays that they are given.
+"""`inner`: for functions that only work on arrays that they are given.
 
 Numba counts references to arrays wherever they are passed on, atomically: in a renderer's inner
 loop that costs four times the work itself. These functions count none, so they can make no arrays and return none.

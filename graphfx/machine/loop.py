@@ -17,7 +17,8 @@ from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
 
-from graphfx.lanes import compiled, inlined
+from graphfx.lanes import compiled
+from graphfx.lanes.inner import inner
 from graphfx.machine.transfer import BLOCK, load_block, store_block
 
 CALL, LOOP = 0, 1
@@ -38,7 +39,7 @@ def _call_kernel(typing: Any, address: Any, scratch: Any, code: Any, place: Any,
     return types.void(types.int64, scratch, code, types.int64, masks), generate
 
 
-@inlined
+@inner
 def _any(masks, first):
     for word in range(first >> 4, (first >> 4) + MASK_WORDS):
         if masks[word] != 0:
@@ -46,17 +47,16 @@ def _any(masks, first):
     return False
 
 
-@inlined
-def _execute(code, scratch, masks):
-    begins = np.zeros(DEPTH, np.int64)
-    turns = np.zeros(DEPTH, np.int64)
+@inner
+def _execute(code, scratch, masks, stack):
+    """Run the code once; `stack` has room for where each open loop begins, and DEPTH further on for its turns."""
     depth = 0
     place = 0
     while True:
-        while depth > 0 and place == begins[depth - 1] + code[begins[depth - 1] + 1]:
-            begin = begins[depth - 1]
-            turns[depth - 1] += 1
-            if turns[depth - 1] < code[begin + 3] and _any(masks, code[begin + 2]):
+        while depth > 0 and place == stack[depth - 1] + code[stack[depth - 1] + 1]:
+            begin = stack[depth - 1]
+            stack[DEPTH + depth - 1] += 1
+            if stack[DEPTH + depth - 1] < code[begin + 3] and _any(masks, code[begin + 2]):
                 place = begin + 4
             else:
                 depth -= 1
@@ -66,15 +66,15 @@ def _execute(code, scratch, masks):
             _call_kernel(code[place + 2], scratch, code, place + 3, masks)
             place += code[place + 1]
         elif _any(masks, code[place + 2]):
-            begins[depth] = place
-            turns[depth] = 0
+            stack[depth] = place
+            stack[DEPTH + depth] = 0
             depth += 1
             place += 4
         else:
             place += code[place + 1]
 
 
-@inlined
+@inner
 def _set_context(masks, excluded, rows, first, count):
     """Put the lanes that run into the first mask: those of the rows there are, less the excluded."""
     for word in range(MASK_WORDS):
@@ -85,11 +85,12 @@ def _set_context(masks, excluded, rows, first, count):
 
 
 @compiled
-def run_blocks(code, loads, stores, scratch, words, masks, rows, excluded, rejected, rejects, counts, now):
+def run_blocks(code, loads, stores, scratch, words, masks, stack, rows, excluded, rejected, rejects, counts, now):
     """Run a program on blocks counts[0] to counts[1] of counts[2] rows.
 
-    `rows` lists the rows, or is empty for all in order. `excluded` has a bit for each row that does not
-    run; `rejected` takes a bit for each row whose lane is on in the mask that begins at `rejects` (-1: none).
+    `stack` is room for 2 DEPTH numbers. `rows` lists the rows, or is empty for all in order. `excluded` has a
+    bit for each row that does not run; `rejected` takes a bit for each row whose lane is on in the mask that
+    begins at `rejects` (-1: none).
     """
     for block in range(counts[0], counts[1]):
         first = block * BLOCK
@@ -98,7 +99,7 @@ def run_blocks(code, loads, stores, scratch, words, masks, rows, excluded, rejec
         if not _any(masks, 0):
             continue
         load_block(loads, scratch, words, masks, rows, first, count, now)
-        _execute(code, scratch, masks)
+        _execute(code, scratch, masks, stack)
         if rejects >= 0:
             for word in range(MASK_WORDS):
                 out = masks[(rejects >> 4) + word] & masks[word]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.machine.assemble import Assembled
-from graphfx.machine.loop import MASK_WORDS, run_blocks
+from graphfx.machine.loop import DEPTH, MASK_WORDS, run_blocks
 from graphfx.machine.transfer import AGE, BLOCK, ID, LINE_BYTES, MASK, REAL, WORD
 from graphfx.program import COMPONENTS, Column, Uniform
 from graphfx.store.threads import parallel
@@ -86,7 +86,8 @@ def run(
     def piece(number: int) -> None:
         scratch, own = _aligned(template), masks.copy()
         counts = np.array([number * size, min((number + 1) * size, blocks), rows.count], np.int64)
-        run_blocks(made.code, loads, stores, scratch, scratch.view(unsigned), own, rows.listed, rows.excluded, rejected,
+        stack = np.zeros(2 * DEPTH, np.int64)
+        run_blocks(made.code, loads, stores, scratch, scratch.view(unsigned), own, stack, rows.listed, rows.excluded, rejected,
                    rejects, counts, now)
 
     parallel(piece, (blocks + size - 1) // size, threads)

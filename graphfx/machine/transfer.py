@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphfx.lanes import inlined
 from graphfx.lanes.addresses import (
     address_of,
     blend_line,
@@ -29,6 +28,7 @@ from graphfx.lanes.addresses import (
     write_float32,
     write_float64,
 )
+from graphfx.lanes.inner import inner
 
 BLOCK = 256
 LINE_BYTES = 64
@@ -41,14 +41,14 @@ split_single, split_double = split_ids[32], split_ids[64]
 ages_single, ages_double = subtract_times[32], subtract_times[64]
 
 
-@inlined
+@inner
 def _lane_index(lane, components, size):
     """Return where a lane's element lies, from the component's first: `size` is the bytes of an element."""
     width = LINE_BYTES // size
     return lane // width * width * components + lane % width
 
 
-@inlined
+@inner
 def _load_lines(kind, target, source, step, size, now):
     """Fill a column from consecutive rows: `target` is its first line, the next `step` bytes on."""
     width = LINE_BYTES // size
@@ -72,14 +72,14 @@ def _load_lines(kind, target, source, step, size, now):
             widen_words(to, source + row * 4)
 
 
-@inlined
+@inner
 def _element_bytes(kind, size):
     if kind == REAL:
         return size
     return 1 if kind == MASK else 4 if kind == WORD else 8
 
 
-@inlined
+@inner
 def _load_lane(kind, scratch, words, masks, offset, index, lane, address, row, now):
     """Fill one lane of a column from a row."""
     if kind == REAL:
@@ -97,7 +97,7 @@ def _load_lane(kind, scratch, words, masks, offset, index, lane, address, row, n
         words[offset + index] = read_int32(address, row)
 
 
-@inlined
+@inner
 def load_block(table, scratch, words, masks, rows, first, count, now):
     """Fill the scratch with `count` rows from `first` on; `rows` lists them, or is empty for rows in order."""
     size = scratch.itemsize
@@ -119,7 +119,7 @@ def load_block(table, scratch, words, masks, rows, first, count, now):
             _load_lane(kind, scratch, words, masks, offset, index, lane, address, rows[first + lane], now)
 
 
-@inlined
+@inner
 def _store_lines(kind, target, scratch, masks, offset, step, keep):
     """Write a column to consecutive rows: the lanes whose bits are on in masks[keep:]."""
     size = scratch.itemsize
@@ -135,7 +135,7 @@ def _store_lines(kind, target, scratch, masks, offset, step, keep):
             blend_double(target + word * 128 + 64, source + step, on >> 8)
 
 
-@inlined
+@inner
 def store_block(table, scratch, masks, rows, first, keep):
     """Write back the lanes whose bits are on in masks[keep:]."""
     size = scratch.itemsize
