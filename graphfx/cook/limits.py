@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from graphfx.errors import LimitError, Problem
@@ -36,7 +37,8 @@ def _greatest(value: Value) -> float:
 
 def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:
     time = plan.flat.time
-    span = (time.last - time.first) / time.fps + time.preroll
+    begin, end = emitter.node.during or (-time.preroll, math.inf)
+    span = max(min(end, (time.last - time.first) / time.fps) - max(begin, -time.preroll), 0.0)
     life = float(emitter.constants.get("life", span))
     count = _greatest(emitter.node.arguments["rate"]) * min(span, life)
     if count <= limits.particles:

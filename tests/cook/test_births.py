@@ -132,10 +132,22 @@ def test_positions_do_not_depend_on_frames_or_steps():
         np.testing.assert_allclose(other, places[0], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize("rate", [1e30, {"expr": "1e12 + time"}])
-def test_rate_beyond_all_memory_is_told(rate):
+def test_constant_rate_beyond_the_limit_is_refused_before_work():
+    """A rate that would make more particles than the limit is told with its place, and nothing is simulated."""
+    told = r"nodes\.sky: about [\d,]+ particles would be alive at once, and the limit is 100,000,000"
+    with pytest.raises(LimitError, match=told):
+        made([], {"rate": 1e30}).simulate(2)
+
+
+def test_births_in_a_short_time_count_only_that_time():
+    """A great rate during a short time makes few particles, and is no matter for a limit."""
+    columns = made([], {"rate": 1e9, "during": [0, 1e-6]}).simulate(2)
+    assert 1000 <= len(columns["sky"]["position"]) <= 1001
+
+
+def test_changing_rate_beyond_all_memory_is_told():
     """More births in a frame than could ever be held are a limit, told with the place in the graph."""
     with pytest.raises(LimitError) as caught:
-        made([], {"rate": rate}).simulate(2)
+        made([], {"rate": {"expr": "1e12 + time"}}).simulate(2)
     assert str(caught.value).endswith("particles would be born in one frame, and the limit is 1,073,741,824; lower the rate")
     assert "nodes.sky.rate: 41," in str(caught.value)
