@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from graphfx.motion import basic, contact
-from graphfx.plan.motion import Moment, Motion, Mover, State
+from graphfx.plan.moment import Moment, State
+from graphfx.plan.motion import Motion, Mover
 from graphfx.program import Builder, Column, Operand, Uniform
 
 SEARCH_LIMIT = 60

@@ -15,7 +15,7 @@ from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.liveness import Attributes, find_attributes
 from graphfx.plan.motion import Motion, Mover, mover_of
-from graphfx.plan.schedule import Schedule, make_schedule
+from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.steps import FrameWriter
 from graphfx.plan.support import check_support
 from graphfx.program import Program
@@ -100,7 +100,11 @@ def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
 
 
 def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
-    """Plan a flattened graph. `prune=False` keeps what could be left out, to show that it changes nothing."""
+    """Plan a flattened graph.
+
+    `prune=False` keeps what could be left out, to show that it changes no byte: nodes that no output needs, attributes
+    that nothing reads, operators that act outside the simulated time. Those that do nothing are left out either way.
+    """
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
     nodes = flat.nodes
@@ -132,7 +136,7 @@ def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]
 
 def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan], prune: bool) -> EmitterPlan:
     operators = _operators(node.path, schedule, flat)
-    movers = [mover_of(operator) for operator in operators]
+    movers = [mover_of(operator, bool(never_acts(operator, flat))) for operator in operators]
     shown = any(node.path in dict(image.streams) for image in images)
     shutter = max(float(image.value("shutter")) for image in images) if shown else 0.0
     attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -10,8 +9,9 @@ from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Name
 from graphfx.motion import basic, linear
 from graphfx.motion.probe import LinearForm, probe
+from graphfx.plan.moment import Moment, State
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
-from graphfx.plan.values import ValueWriter, folded_call, node_function
+from graphfx.plan.values import folded_call, node_function
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 
 X_AXIS, Y_AXIS = Uniform("(1, 0, 0)", "vec3", (1.0, 0.0, 0.0)), Uniform("(0, 1, 0)", "vec3", (0.0, 1.0, 0.0))
@@ -19,37 +19,13 @@ ZERO = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
 
 
 @dataclass
-class State:
-    """The operands that hold a particle's state; `position` and `velocity` are columns wherever they change."""
-
-    position: Operand
-    velocity: Operand | None
-    attribute: Callable[[str], Operand]
-
-    def read(self, name: str) -> Operand:
-        """Return the operand of an attribute."""
-        if name == "position":
-            return self.position
-        return self.velocity if name == "velocity" and self.velocity is not None else self.attribute(name)
-
-
-@dataclass
-class Moment:
-    """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, and how to open a mask."""
-
-    builder: Builder
-    dt: Operand
-    half: Callable[[], Operand]
-    writer: ValueWriter
-
-
-@dataclass
 class Mover:
-    """One operator of the motion, as it will run."""
+    """One operator of the motion, as it will run. An `idle` one acts at no time that is simulated."""
 
     node: FlatNode
     function: Function
     form: LinearForm | None = None
+    idle: bool = False
 
     @property
     def role(self) -> str:
@@ -68,13 +44,13 @@ class Mover:
         return self.node.during is None and self.node.only is None and not any(map(depends_on_time, self.node.arguments.values()))
 
 
-def mover_of(node: FlatNode) -> Mover:
+def mover_of(node: FlatNode, idle: bool = False) -> Mover:
     """Return an operator with the form found by probing it."""
     function = node_function(node.node_type)
     form = None
     if node.node_type.role == "linear" and node.node_type.writes == ("velocity",):
         form = probe(function.body, node.node_type.arguments, function.arguments)
-    return Mover(node, function, form)
+    return Mover(node, function, form, idle)
 
 
 @dataclass
@@ -104,8 +80,8 @@ class Motion:
     _cached: dict[tuple[int, int], dict[str, Operand]] = field(default_factory=dict)
 
     def of(self, role: str) -> list[Mover]:
-        """Return the operators of one role, in order."""
-        return [mover for mover in self.movers if mover.role == role]
+        """Return the operators of one role that act at all, in order."""
+        return [mover for mover in self.movers if mover.role == role and not mover.idle]
 
     def arguments(self, mover: Mover, moment: Moment, state: State, replaced: dict[str, Operand] | None = None) -> list[Operand]:
         """Return the operands of an operator's function."""
@@ -137,6 +113,9 @@ class Motion:
     def step(self, moment: Moment, state: State) -> None:
         """Write one step of dt, in place."""
         self.select(moment)
+        for mover in self.movers:
+            if mover.idle and mover.role in ("flow", "acceleration"):
+                self._apply(mover, moment, state, moment.dt)
         if self.method == "sims":
             self._sims(moment, state)
             return
@@ -276,6 +255,8 @@ class Motion:
         builder = moment.builder
         before = builder.call(basic.copy_vector, state.velocity, name="before") if state.velocity is not None else None
         for mover in self.movers:
+            if mover.idle:
+                continue
             if mover.role in ("flow", "acceleration"):
                 self._apply(mover, moment, state, moment.dt)
             elif mover.role == "linear":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -76,16 +77,18 @@ def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]
 def _idle(node: FlatNode, flat: FlatGraph, precision: int, prune: bool) -> str:
     if not node.enabled:
         return "not enabled"
-    if not prune:
-        return ""
-    if node.during is not None:
-        start, end = node.during
-        begin, finish = 0.0 - flat.time.preroll, (flat.time.last - flat.time.first) / flat.time.fps
-        if end <= begin or start > finish or end <= start:
-            return f"acts from {start:g} to {end:g} s, outside the simulated {begin:g} to {finish:g} s"
     if node.node_type.neutral and _is_neutral(node, precision):
         return f"it does nothing: {node.node_type.neutral}"
-    return ""
+    return never_acts(node, flat) if prune else ""
+
+
+def never_acts(node: FlatNode, flat: FlatGraph) -> str:
+    """Return why a node acts at no time that is simulated, or nothing if it does."""
+    start, end = node.during or (-math.inf, math.inf)
+    begin, finish = 0.0 - flat.time.preroll, (flat.time.last - flat.time.first) / flat.time.fps
+    if end > begin and start <= finish and end > start:
+        return ""
+    return f"acts from {start:g} to {end:g} s, outside the simulated {begin:g} to {finish:g} s"
 
 
 def _is_neutral(node: FlatNode, precision: int) -> bool:

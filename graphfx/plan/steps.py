@@ -17,7 +17,8 @@ from graphfx.node import ATTRIBUTES
 from graphfx.plan.contacts import Contacts
 from graphfx.plan.frame_program import FrameProgram, LazyClock
 from graphfx.plan.liveness import Attributes
-from graphfx.plan.motion import Moment, Motion, State
+from graphfx.plan.moment import Moment, State
+from graphfx.plan.motion import Motion
 from graphfx.plan.rates import Scope, lane_type
 from graphfx.plan.sharing import share
 from graphfx.plan.values import StepValues, ValueWriter

@@ -1,0 +1,43 @@
+"""Operators that say when they do nothing do nothing then."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from graphfx.math import Vec3
+from graphfx.node import Library
+from graphfx.node.types import NodeType
+
+LIBRARY = Library()
+NEUTRAL = {
+    "vortex": {"magnitude": 0.0, "lift": 0.0},
+    "spiral": {"speed": 0.0},
+    "damp": {"damping": 0.0},
+    "gravity": {"acceleration": Vec3(0.0, 0.0, 0.0)},
+    "translate": {"rate": Vec3(0.0, 0.0, 0.0)},
+}
+"""Parameters at which each operator's `neutral` holds."""
+
+
+def random_argument(node_type: NodeType, name: str, generator: np.random.Generator) -> object:
+    if node_type.argument_type(name) in ("float", "int"):
+        return np.float64(generator.uniform(0.1, 2.0))
+    vector = generator.normal(size=3)
+    return Vec3(*(vector / np.linalg.norm(vector) if node_type.argument_type(name) == "direction" else vector))
+
+
+def test_every_neutral_operator_is_tried() -> None:
+    """No operator with a `neutral` condition is forgotten here."""
+    assert {name for name in LIBRARY if LIBRARY[name].neutral} == NEUTRAL.keys()
+
+
+@pytest.mark.parametrize("name", NEUTRAL)
+def test_a_neutral_operator_does_nothing(name: str) -> None:
+    """Where `neutral` holds, a flow leaves the position where it is, and a rate of change is zero."""
+    node_type, generator = LIBRARY[name], np.random.default_rng(3)
+    for _ in range(100):
+        given = {argument: random_argument(node_type, argument, generator) for argument in node_type.arguments} | NEUTRAL[name]
+        result = np.array(list(node_type.function(**given)))
+        expected = np.array(list(given["position"])) if node_type.role == "flow" else np.zeros(3)
+        np.testing.assert_allclose(result, expected, rtol=0, atol=1e-14)
