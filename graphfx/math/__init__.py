@@ -19,11 +19,12 @@ from .primitives import (
     sqrt,
     where,
 )
+from .sampling import around, on_unit_sphere
 from .trigonometric import acos, atan2, cos, sin, sincos
 from .vec3 import Vec3, cross, dot, length, rotate, unit
 
 __all__ = [
-    "Vec3", "absolute", "acos", "atan2", "by_precision", "copysign", "cos", "cosinc", "cross", "dot", "exp", "exp2",
-    "expm1", "floor", "fma", "length", "log", "log2", "maximum", "minimum", "phi1", "phi2", "power", "rotate", "scale2",
-    "sin", "sin3", "sinc", "sincos", "split2", "sqrt", "unit", "where",
+    "Vec3", "absolute", "acos", "around", "atan2", "by_precision", "copysign", "cos", "cosinc", "cross", "dot", "exp",
+    "exp2", "expm1", "floor", "fma", "length", "log", "log2", "maximum", "minimum", "on_unit_sphere", "phi1", "phi2",
+    "power", "rotate", "scale2", "sin", "sin3", "sinc", "sincos", "split2", "sqrt", "unit", "where",
 ]

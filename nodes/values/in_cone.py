@@ -4,7 +4,7 @@
 
 """
 
-from graphfx.math import Vec3, absolute, cos, cross, maximum, sincos, sqrt, unit, where
+from graphfx.math import Vec3, around, cos, maximum, sqrt
 from graphfx.node import param, value
 
 
@@ -18,8 +18,4 @@ def in_cone(
     """Return a vector of the cone."""
     height = 1.0 - draw[0] * (1.0 - cos(angle * 0.017453292519943295))
     ring = sqrt(maximum(1.0 - height * height, 0.0))
-    upright = absolute(direction.y) < 0.9
-    zero, one = direction.x * 0.0, direction.x * 0.0 + 1.0
-    across = unit(cross(Vec3(where(upright, zero, one), where(upright, one, zero), zero), direction))
-    sine, cosine = sincos(draw[1] * 6.283185307179586)
-    return (direction * height + (across * cosine + cross(direction, across) * sine) * ring) * length
+    return (direction * height + around(direction, draw[1]) * ring) * length

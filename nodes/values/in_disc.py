@@ -4,7 +4,7 @@
 
 """
 
-from graphfx.math import Vec3, absolute, cross, sincos, sqrt, unit, where
+from graphfx.math import Vec3, around, sqrt
 from graphfx.node import param, value
 
 
@@ -16,8 +16,4 @@ def in_disc(
     radius: float = param(1.0, min=0, doc="Radius of the disc."),
 ) -> Vec3:
     """Return a point of the disc."""
-    upright = absolute(axis.y) < 0.9
-    zero, one = axis.x * 0.0, axis.x * 0.0 + 1.0
-    across = unit(cross(Vec3(where(upright, zero, one), where(upright, one, zero), zero), axis))
-    sine, cosine = sincos(draw[1] * 6.283185307179586)
-    return center + (across * cosine + cross(axis, across) * sine) * (radius * sqrt(draw[0]))
+    return center + around(axis, draw[1]) * (radius * sqrt(draw[0]))

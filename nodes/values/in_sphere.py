@@ -5,7 +5,7 @@
 [Sims 1990, 3.1]
 """
 
-from graphfx.math import Vec3, maximum, power, sincos, sqrt
+from graphfx.math import Vec3, on_unit_sphere, power
 from graphfx.node import param, value
 
 
@@ -16,7 +16,4 @@ def in_sphere(
     radius: float = param(1.0, min=0, doc="Radius of the ball."),
 ) -> Vec3:
     """Return a point of the ball."""
-    z = draw[0] * 2.0 - 1.0
-    ring = sqrt(maximum(1.0 - z * z, 0.0))
-    sine, cosine = sincos(draw[1] * 6.283185307179586)
-    return center + Vec3(ring * cosine, ring * sine, z) * (radius * power(draw[2], 0.3333333333333333))
+    return center + on_unit_sphere(draw[0], draw[1]) * (radius * power(draw[2], 0.3333333333333333))

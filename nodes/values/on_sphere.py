@@ -5,7 +5,7 @@
 Equal heights of a sphere have equal areas (Archimedes). [Sims 1990, 3.1]
 """
 
-from graphfx.math import Vec3, maximum, sincos, sqrt
+from graphfx.math import Vec3, on_unit_sphere
 from graphfx.node import param, value
 
 
@@ -16,7 +16,4 @@ def on_sphere(
     radius: float = param(1.0, min=0, doc="Radius of the sphere."),
 ) -> Vec3:
     """Return a point of the surface."""
-    z = draw[0] * 2.0 - 1.0
-    ring = sqrt(maximum(1.0 - z * z, 0.0))
-    sine, cosine = sincos(draw[1] * 6.283185307179586)
-    return center + Vec3(ring * cosine, ring * sine, z) * radius
+    return center + on_unit_sphere(draw[0], draw[1]) * radius
