@@ -75,17 +75,25 @@ def respond(
 
     Friction does not act on a particle slower than `threshold` [m/s]. One that would leave more slowly than
     `rest_speed` [m/s] does not leave: with friction it stops there (third result), without it slides (fourth).
+    One whose own velocity leaves the surface while an applied one drives it in keeps its velocity, and slides.
     """
     approach = dot(velocity, normal)
+    driven = approach > 0.0
     along = normal * minimum(approach, 0.0)
     across = velocity - along
     slowed = where(length(velocity) < threshold, 0.0, friction)
-    settled = absolute(minimum(approach, 0.0)) * resilience <= rest_speed
+    settled = (-approach * resilience <= rest_speed) & ~driven
     stopped = settled & (slowed > 0.0)
-    sliding = settled & ~(slowed > 0.0)
     bounced = where(settled, across, across * (1.0 - slowed) - along * resilience)
     still = velocity - velocity
-    return position - normal * distance, where(stopped, still, bounced), stopped, sliding
+    answered = where(driven, velocity, where(stopped, still, bounced))
+    return position - normal * distance, answered, stopped, driven | (settled & ~(slowed > 0.0))
+
+
+@MOTION.function("float float", "bool")
+def is_instant(time: Any, step: Any) -> Any:
+    """Whether a contact came so soon (1/1024 of the step) that there is no getting on but along the surface."""
+    return time <= step * 0.0009765625
 
 
 @MOTION.function("vec3 vec3 float vec3", "vec3 vec3")

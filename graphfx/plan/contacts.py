@@ -22,7 +22,6 @@ class Contacts:
         self.motion = motion
         self.surfaces = motion.of("surface")
         self.resolution = Uniform("8 eps", "float", RESOLUTION[precision])
-        self.zero = Uniform("0", "float", 0.0)
 
     def _distance(self, surface: Mover, moment: Moment, state: State) -> tuple[Column, Column]:
         moment.builder.note = surface.node.path
@@ -87,13 +86,13 @@ class Contacts:
             slid = self._answer(surface, builder.under(chosen), moment_of, state, best, resting)
             slides = slid if slides is None else builder.call(basic.either, slides, slid)
         if slides is not None:
-            stuck = builder.call(basic.both, slides, builder.under(slides).call(basic.is_equal, best, self.zero), name="stuck")
+            stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, step), name="stuck")
             self._slide(builder.under(stuck), moment_of, state, step)
             builder.under(stuck).call(basic.copy_number, step, into=best)
         inner.call(basic.copy_number, best, into=step)
 
     def _slide(self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column) -> None:
-        """Write a whole step along the surfaces, for particles that press on one without friction."""
+        """Write a whole step along the surfaces, for particles that are pressed on one and cannot leave."""
         moment = moment_of(builder, step)
         self.motion.step(moment, state)
         for surface in self.surfaces:
