@@ -182,9 +182,16 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[s
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
     inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]
-    names = ", ".join(mover.node.node_type.name for mover in movers if mover.role != "surface")
+    parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
+    if not parts or (drifts and not _has_role(movers, "linear")):
+        parts.insert(0, "free flight")
+    names = ", ".join(parts)
     if not inner:
-        return "exact", f"all motion is linear ({names or 'free flight'}): one exact step"
+        changing = [mover.node.node_type.name for mover in movers if mover.role == "linear" and not mover.constant]
+        if changing:
+            held = ", ".join(changing)
+            return "exact", f"all motion is linear ({names}): exact but for {held}, taken at the middle of each step"
+        return "exact", f"all motion is linear ({names}): one exact step"
     if len(inner) == 1 and inner[0].role == "flow" and inner[0].time_free and not drifts and not _has_role(movers, "linear"):
         return "exact", f"one flow and nothing else ({names}): one exact step"
     if asked == "exact":

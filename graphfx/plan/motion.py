@@ -40,8 +40,13 @@ class Mover:
 
     @property
     def time_free(self) -> bool:
-        """Return whether its parameters stay the same for a particle."""
-        return self.node.during is None and self.node.only is None and not any(map(depends_on_time, self.node.arguments.values()))
+        """Return whether what it does to a particle stays the same: its parameters, and that it acts."""
+        return self.node.during is None and self.node.only is None and self.constant
+
+    @property
+    def constant(self) -> bool:
+        """Return whether the values of its parameters stay the same for a particle."""
+        return not any(map(depends_on_time, self.node.arguments.values()))
 
 
 def mover_of(node: FlatNode, idle: bool = False) -> Mover:

@@ -108,13 +108,15 @@ def test_methods_are_told_with_their_reasons():
         effect_of(ops, (0, 0, 0), (1, 0, 0), method=method).plan.emitters["one"]
         for ops, method in (
             ([{"type": "gravity"}, {"type": "spiral"}], "auto"),
+            ([{"type": "gravity"}, {"type": "damp", "damping": {"keys": [[0, 1], [1, 2]]}}], "auto"),
             (FIELDS["two vortices"], "auto"),
             ([{"type": "gravity"}], "sims"),
         )
     ]
     assert [(plan.method, plan.reason) for plan in told] == [
         ("exact", "all motion is linear (gravity, spiral): one exact step"),
-        ("strang", "flows that do not commute (vortex, vortex): composed symmetrically, second order"),
+        ("exact", "all motion is linear (gravity, damp): exact but for damp, taken at the middle of each step"),
+        ("strang", "flows that do not commute (free flight, vortex, vortex): composed symmetrically, second order"),
         ("sims", "asked for: the paper's scheme, first order, operations in stack order"),
     ]
 
