@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
@@ -13,6 +14,23 @@ from graphfx.program.reference import run_particle
 Arrays = Mapping[str, tuple[np.ndarray, ...]]
 
 
+@dataclass(frozen=True)
+class Job:
+    """What a program is run on: all of `count` rows, or those `listed`, less the `excluded` ones.
+
+    `arrays` are the store's, by name; `by_place` those that run along with `listed`. `uniforms` are values by
+    id(uniform); `now` is the time from which ages count [s].
+    """
+
+    count: int
+    arrays: Arrays
+    listed: np.ndarray | None = None
+    excluded: np.ndarray | None = None
+    uniforms: Mapping[int, Any] = field(default_factory=dict)
+    by_place: Arrays = field(default_factory=dict)
+    now: float = 0.0
+
+
 class Executor(Protocol):
     """Runs programs over rows of columns."""
 
@@ -20,18 +38,8 @@ class Executor(Protocol):
         """Make ready to run a program, so that what is wrong with it shows before any work."""
         ...
 
-    def run(
-        self,
-        program: Program,
-        count: int,
-        listed: np.ndarray | None,
-        excluded: np.ndarray | None,
-        arrays: Arrays,
-        uniforms: Mapping[int, Any],
-        by_place: Arrays,
-        now: float,
-    ) -> np.ndarray:
-        """Run over `count` rows, or those listed, less the excluded ones; return the rows rejected."""
+    def run(self, program: Program, job: Job) -> np.ndarray:
+        """Run over the rows of a job; return those rejected."""
         ...
 
 
@@ -51,23 +59,13 @@ class BlockExecutor:
             self._assembled[id(program)] = assemble(program, self.precision)
         return self._assembled[id(program)]
 
-    def run(
-        self,
-        program: Program,
-        count: int,
-        listed: np.ndarray | None,
-        excluded: np.ndarray | None,
-        arrays: Arrays,
-        uniforms: Mapping[int, Any],
-        by_place: Arrays,
-        now: float,
-    ) -> np.ndarray:
+    def run(self, program: Program, job: Job) -> np.ndarray:
         """Run on blocks of 256 rows, on all threads."""
         from graphfx.machine.run import NO_BITS, NO_ROWS, Rows, bits_of, run
 
-        bits = bits_of(excluded, count) if excluded is not None and excluded.size else NO_BITS
-        rows = Rows(count if listed is None else len(listed), NO_ROWS if listed is None else listed, bits)
-        return run(self.prepare(program), rows, arrays, uniforms, by_place, now, self.threads)
+        bits = bits_of(job.excluded, job.count) if job.excluded is not None and job.excluded.size else NO_BITS
+        rows = Rows(job.count if job.listed is None else len(job.listed), NO_ROWS if job.listed is None else job.listed, bits)
+        return run(self.prepare(program), rows, job.arrays, job.uniforms, job.by_place, job.now, self.threads)
 
 
 class ReferenceExecutor:
@@ -79,41 +77,29 @@ class ReferenceExecutor:
     def prepare(self, program: Program) -> None:
         """Do nothing: plain Python needs no preparation."""
 
-    def run(
-        self,
-        program: Program,
-        count: int,
-        listed: np.ndarray | None,
-        excluded: np.ndarray | None,
-        arrays: Arrays,
-        uniforms: Mapping[int, Any],
-        by_place: Arrays,
-        now: float,
-    ) -> np.ndarray:
+    def run(self, program: Program, job: Job) -> np.ndarray:
         """Run row by row."""
-        left_out = set() if excluded is None else set(excluded.tolist())
+        left_out = set() if job.excluded is None else set(job.excluded.tolist())
         rejected = []
-        for place, row in enumerate(range(count) if listed is None else listed.tolist()):
+        for place, row in enumerate(range(job.count) if job.listed is None else job.listed.tolist()):
             if row in left_out:
                 continue
-            loaded = {
-                name: self._read(name, column.type, arrays, by_place, row, place, now) for name, column in program.loads.items()
-            }
-            values = run_particle(program, loaded, uniforms, self.precision)
+            loaded = {name: self._read(name, column.type, job, row, place) for name, column in program.loads.items()}
+            values = run_particle(program, loaded, job.uniforms, self.precision)
             if program.rejects is not None and values.get(id(program.rejects)):
                 rejected.append(row)
                 continue
             for name, column in program.stores.items():
                 value = values[id(column)]
-                parts = by_place.get(name) or arrays[name]
-                target = place if name in by_place else row
+                parts = job.by_place.get(name) or job.arrays[name]
+                target = place if name in job.by_place else row
                 for part, number in zip(parts, value if column.type == "vec3" else (value,), strict=True):
                     part[target] = number
         return np.array(rejected, np.int64)
 
     @staticmethod
-    def _read(name: str, type_: str, arrays: Arrays, by_place: Arrays, row: int, place: int, now: float) -> Any:
-        parts, index = (by_place[name], place) if name in by_place else (arrays[name], row)
+    def _read(name: str, type_: str, job: Job, row: int, place: int) -> Any:
+        parts, index = (job.by_place[name], place) if name in job.by_place else (job.arrays[name], row)
         if name == "age":
-            return now - parts[0][index]
+            return job.now - parts[0][index]
         return tuple(part[index] for part in parts) if type_ == "vec3" else parts[0][index]

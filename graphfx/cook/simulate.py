@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from graphfx.cook.births import Births
-from graphfx.cook.executor import Executor
+from graphfx.cook.executor import Executor, Job
 from graphfx.motion.clock import Clock, Interval
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import EmitterPlan, Plan
@@ -111,8 +111,7 @@ class Simulation:
         if "birth" in store.columns:
             store.arrays("birth")[0][added] = times
         by_place = {"birth_id": (_padded(ordinals, np.uint64),), "birth_time": (_padded(times, self._real),)}
-        uniforms = self._uniforms(plan.birth, interval)
-        self._run(plan.birth.program, particles, len(times), particles.born, None, uniforms, by_place, interval.start)
+        self._run(plan.birth, particles, interval, len(times), listed=particles.born, by_place=by_place)
         if "tail" in store.columns:
             for tail, position in zip(store.arrays("tail"), store.arrays("position"), strict=True):
                 tail[added] = position[added]
@@ -121,21 +120,13 @@ class Simulation:
     def _real(self) -> Any:
         return np.float32 if self.plan.precision == 32 else np.float64
 
-    def _run(
-        self,
-        program: Any,
-        particles: Particles,
-        count: int,
-        listed: np.ndarray | None,
-        excluded: np.ndarray | None,
-        uniforms: dict[int, Any],
-        by_place: Mapping[str, tuple[np.ndarray, ...]],
-        now: float,
-    ) -> np.ndarray:
-        store = particles.store
+    def _run(self, made: FrameProgram, particles: Particles, interval: Interval, count: int, **given: Any) -> np.ndarray:
+        """Run a program over an interval; what is given besides is as in `Job`. Return the rows rejected."""
+        program, store = made.program, particles.store
         names = {"birth" if name == "age" else name: name for name in (*program.loads, *program.stores)}
         arrays = {name: store.arrays(stored) for stored, name in names.items() if stored in store.columns}
-        return self.executor.run(program, count, listed, excluded, arrays, uniforms, by_place, now)
+        job = Job(count, arrays, uniforms=self._uniforms(made, interval), now=interval.start, **given)
+        return self.executor.run(program, job)
 
     def _advance(self, particles: Particles, interval: Interval) -> None:
         """Carry one emitter's particles over an interval: births, whole steps, then those with times of their own."""
@@ -151,8 +142,7 @@ class Simulation:
             return
         dying = particles.dying[particles.dying < before]
         if interval.length * self.clock.fps > 1 - 1e-9:
-            uniforms = self._uniforms(plan.main, interval)
-            rejected = self._run(plan.main.program, particles, before, None, dying, uniforms, {}, interval.start)
+            rejected = self._run(plan.main, particles, interval, before, excluded=dying)
         else:  # a shorter interval begins the preroll; the shutter opens in another of its steps than is usual
             rejected = np.arange(before)
         listed = np.concatenate([np.union1d(dying, rejected), particles.born]).astype(np.int64)
@@ -171,9 +161,7 @@ class Simulation:
             end = np.minimum(end, death[listed] - interval.start)
         unfinished = np.zeros(_blocks(len(listed)) * BLOCK, np.uint8)
         by_place = {"begin": (_padded(begin, self._real),), "end": (_padded(end, self._real),), "unfinished": (unfinished,)}
-        self._run(
-            plan.own.program, particles, len(listed), listed, None, self._uniforms(plan.own, interval), by_place, interval.start
-        )
+        self._run(plan.own, particles, interval, len(listed), listed=listed, by_place=by_place)
         particles.unfinished += int(unfinished[: len(listed)].sum())
 
     def _uniforms(self, made: FrameProgram, interval: Interval) -> dict[int, Any]:

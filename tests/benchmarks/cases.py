@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 import graphfx
-from graphfx.cook.executor import BlockExecutor
+from graphfx.cook.executor import BlockExecutor, Job
 from graphfx.cook.simulate import Simulation
 from graphfx.math import Vec3, unit
 from graphfx.math.random import counter_of, philox4x32, uniform, word_of
@@ -34,10 +34,10 @@ class Watched(BlockExecutor):
     seconds = (0.0, 0.0)
     rejected = np.zeros(0, np.int64)
 
-    def run(self, program: Any, *given: Any) -> np.ndarray:
+    def run(self, program: Any, job: Job) -> np.ndarray:
         """Run a program and note its CPU and wall time."""
         began = time.process_time(), time.perf_counter()
-        result = super().run(program, *given)
+        result = super().run(program, job)
         if program.name.endswith(": motion"):
             self.seconds = time.process_time() - began[0], time.perf_counter() - began[1]
             self.rejected = result

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.executor import ReferenceExecutor
+from graphfx.cook.executor import Job, ReferenceExecutor
 from graphfx.machine.assemble import assemble
 from graphfx.machine.run import NO_ROWS, Rows, bits_of, run
 from graphfx.machine.transfer import BLOCK
@@ -69,9 +69,8 @@ def on_machine(program: Program, arrays: dict[str, Any], setting: Setting) -> np
 def in_plain_python(program: Program, arrays: dict[str, Any], setting: Setting) -> np.ndarray:
     """Run in place particle by particle; return the rejected rows."""
     apart = {name: arrays[name] for name in setting.by_place}
-    return ReferenceExecutor(setting.precision).run(
-        program, setting.count, setting.listed, setting.excluded, arrays, setting.uniforms, apart, NOW
-    )
+    job = Job(setting.count, arrays, setting.listed, setting.excluded, setting.uniforms, apart, NOW)
+    return ReferenceExecutor(setting.precision).run(program, job)
 
 
 def copied(arrays: dict[str, Any]) -> dict[str, Any]:
