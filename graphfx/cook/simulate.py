@@ -14,9 +14,7 @@ from graphfx.motion.clock import Clock, Interval
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.values import find_step_values
-from graphfx.store.processors import Column, ProcessorSet
-
-BLOCK = 256
+from graphfx.store.processors import BLOCK, Column, ProcessorSet
 
 
 @dataclass

@@ -27,9 +27,7 @@ from graphfx.lanes.types import Real
 from graphfx.machine.inline import inline_body
 from graphfx.machine.mistakes import located
 from graphfx.program import Function
-
-BLOCK = 256
-"""Particles in a block."""
+from graphfx.store.processors import BLOCK
 
 DTYPES = {32: types.float32, 64: types.float64}
 

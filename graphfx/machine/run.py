@@ -11,7 +11,7 @@ import numpy as np
 from graphfx.machine.assemble import Assembled
 from graphfx.machine.loop import DEPTH, MASK_WORDS, run_blocks
 from graphfx.machine.transfer import AGE, BLOCK, ID, LINE_BYTES, MASK, REAL, WORD
-from graphfx.program import COMPONENTS, Column, Uniform
+from graphfx.program import COMPONENTS, Column
 from graphfx.store.threads import parallel
 
 NO_ROWS = np.zeros(0, np.int64)
@@ -108,8 +108,3 @@ def bits_of(listed: np.ndarray, count: int) -> np.ndarray:
     flags = np.zeros(blocks * BLOCK, np.uint8)
     flags[listed] = 1
     return np.packbits(flags, bitorder="little").view(np.uint16)
-
-
-def uniform_values(pairs: Mapping[Uniform, Any]) -> dict[int, Any]:
-    """Return the mapping that `run` takes."""
-    return {id(uniform): value for uniform, value in pairs.items()}

@@ -29,8 +29,8 @@ from graphfx.lanes.addresses import (
     write_float64,
 )
 from graphfx.lanes.inner import inner
+from graphfx.store.processors import BLOCK
 
-BLOCK = 256
 LINE_BYTES = 64
 REAL, ID, MASK, AGE, WORD = 0, 1, 2, 3, 4
 """Kinds of columns: reals as they are; uint64 as two words; uint8 as bits of a mask; the float64 time of

@@ -89,12 +89,6 @@ def but_not(a: Any, b: Any) -> Any:
 
 
 @MOTION.function("float float", "float")
-def later(a: Any, b: Any) -> Any:
-    """The greater of two times."""
-    return maximum(a, b)
-
-
-@MOTION.function("float float", "float")
 def earlier(a: Any, b: Any) -> Any:
     """The lesser of two times."""
     return minimum(a, b)

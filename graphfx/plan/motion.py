@@ -67,13 +67,6 @@ class Coefficients:
     turning: Operand | None = None
     applied: Operand | None = None
 
-    @property
-    def name(self) -> str:
-        """Return the name of the exact flow that does it."""
-        if self.turning is not None:
-            return "spiral_fall" if self.constant is not None or self.damping is not None else "spin"
-        return "damped_fall" if self.damping is not None else "fall" if self.constant is not None else "advance"
-
 
 @dataclass
 class Motion:

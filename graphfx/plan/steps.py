@@ -45,7 +45,7 @@ class FrameWriter:
         """Return the program for whole steps; the shutter opens in substep `opening_step` (-1: no motion blur)."""
         builder = Builder.begin(f"{self.emitter.path}: motion")
         made = FrameProgram(builder.program, [])
-        state = self._state(builder, made)
+        state = self._state(builder)
         self.shared = {}
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
         tail = Column("tail", "vec3")
@@ -76,7 +76,7 @@ class FrameWriter:
         """Return the program for particles with times of their own: `begin` and `end` come by place."""
         builder = Builder.begin(f"{self.emitter.path}: motion in own time")
         made = FrameProgram(builder.program, [])
-        state = self._state(builder, made)
+        state = self._state(builder)
         self.shared = {}
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
@@ -146,7 +146,7 @@ class FrameWriter:
             lambda name: name in columns or name in ("age", "normalized_age"),
         )
 
-    def _state(self, builder: Builder, made: FrameProgram) -> State:
+    def _state(self, builder: Builder) -> State:
         columns = self.attributes.columns
 
         def attribute(name: str) -> Operand:
@@ -170,7 +170,7 @@ class FrameWriter:
     def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
         steps = StepValues()
         made.steps.append(steps)
-        scope = self._scope(builder, self._reader(builder, made, state, lambda: made.time(builder, ("middle", k))))
+        scope = self._scope(builder, self._reader(builder, state, lambda: made.time(builder, ("middle", k))))
         clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")})
         writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
         return Moment(builder, made.time(builder, "length"), lambda: made.time(builder, "half"), writer)
@@ -189,12 +189,12 @@ class FrameWriter:
                 "frame word": lambda: made.time(builder, "frame word"),
             }
         )
-        state = self._state(builder, made)
-        scope = self._scope(builder, self._reader(builder, made, state, lambda: lane["middle"]))
+        state = self._state(builder)
+        scope = self._scope(builder, self._reader(builder, state, lambda: lane["middle"]))
         writer = self._share(ValueWriter(builder, scope, lane, None, self.precision))
         return Moment(builder, dt, lambda: lane["half"], writer)
 
-    def _reader(self, builder: Builder, made: FrameProgram, state: State, middle: Any) -> Any:
+    def _reader(self, builder: Builder, state: State, middle: Any) -> Any:
         def read(name: str) -> Operand:
             if name == "age":
                 return builder.call(basic.sum_of_numbers, builder.load("age", "float"), middle(), name="age")

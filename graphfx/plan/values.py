@@ -89,11 +89,7 @@ class ValueWriter:
     def _constant(self, tree: Any) -> Operand:
         builder = Builder.begin("constant")
         column = ValueWriter(builder, self.scope, {}, None, self.precision, Rate.CONSTANT).operand(tree)
-        if isinstance(column, Uniform):
-            return column
-        value = _run(builder, {}, self.precision)[id(column)]
-        plain = tuple(value) if column.type == "vec3" else value
-        return Uniform(_shown(plain), column.type, plain)
+        return column if isinstance(column, Uniform) else _result(builder, column, self.precision)
 
     def _step(self, tree: Any, steps: StepValues) -> Operand:
         if steps.writer is None:
@@ -128,6 +124,13 @@ def _run(builder: Builder, loaded: dict[str, Any], precision: int) -> dict[int, 
     return values
 
 
+def _result(builder: Builder, column: Operand, precision: int) -> Uniform:
+    """Run instructions that depend on nothing; return what they leave in a column as a constant."""
+    value = _run(builder, {}, precision)[id(column)]
+    plain = tuple(value) if column.type == "vec3" else value
+    return Uniform(_shown(plain), column.type, plain)
+
+
 def find_step_values(steps: StepValues, time: float, frame: int, precision: int) -> dict[int, Any]:
     """Return the values of a step's uniforms by id(uniform)."""
     if not steps.exports:
@@ -142,10 +145,7 @@ def folded_call(builder: Builder, precision: int, function: Function, *operands:
         result: Operand = builder.call(function, *operands, name=name)
         return result
     constant = Builder.begin("constant")
-    column = constant.call(function, *operands)
-    value = _run(constant, {}, precision)[id(column)]
-    plain = tuple(value) if column.type == "vec3" else value
-    return Uniform(_shown(plain), column.type, plain)
+    return _result(constant, constant.call(function, *operands), precision)
 
 
 class _Lowering:
