@@ -10,7 +10,19 @@ from dataclasses import dataclass, field
 
 from graphfx.errors import NOWHERE, Location
 from graphfx.graph.values import Value
-from graphfx.node.types import NodeType
+from graphfx.node.types import Attribute, NodeType
+
+
+@dataclass(frozen=True)
+class Cluster:
+    """Numbers given to an emitter's particles, 0 to `count` - 1: in turn, or of the nearest of `count` seeds.
+
+    The seeds are points of the emitter's own distribution of positions.
+    """
+
+    name: str
+    count: int
+    by: str = "turn"
 
 
 @dataclass
@@ -18,9 +30,10 @@ class FlatNode:
     """One node that may run. `arguments` holds every parameter, given or default.
 
     `sources` are the paths of the nodes whose streams it takes, in order (images: their `from`);
-    `references` maps a parameter of type "node" (`camera`) to a path. `sets` are the attribute values of
-    emit, spawn, recycle and set. `only` is a bool Value or the path of a selector node. `during` is
-    (start, end) in seconds. `looks` are the modifiers of an image's `from` entries, in order of `sources`.
+    `references` maps a parameter that names a node (`camera`, `mesh`, `into`) to a path. `sets` are the attribute
+    values of emit, spawn, set and fade; "tail.radius" sets the tail's alone. `only` is a condition; of a selector in
+    a stream it is its own. `when` is a moment, and `surfaces` are those whose hits count (none named: all). `during`
+    is (start, end) in seconds. `looks` are the modifiers of an image's `from` entries, in order of `sources`.
     """
 
     path: str
@@ -37,6 +50,8 @@ class FlatNode:
     location: Location = NOWHERE
     given: frozenset[str] = frozenset()
     """Names of the parameters that the document states; the rest stand at their defaults."""
+    surfaces: tuple[str, ...] = ()
+    clusters: dict[str, Cluster] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -64,3 +79,5 @@ class FlatGraph:
     nodes: dict[str, FlatNode]
     doc: str = ""
     document_hash: str = ""
+    attributes: dict[str, Attribute] = field(default_factory=dict)
+    """The graph's own, besides those of graphfx."""

@@ -109,6 +109,14 @@ class Node(Value):
     per: str = "life"
 
 
+@dataclass(frozen=True)
+class Member(Value):
+    """`spot.normal`: one of the further results of a value node that has several, by its place among them."""
+
+    value: Node | None = None
+    index: int = 0
+
+
 class Measure(NamedTuple):
     """How deep a tree of values nests, and how many parts it has when nothing is shared."""
 
@@ -134,6 +142,8 @@ def children(tree: Any) -> tuple[Any, ...]:
             return (tree.low, tree.high)
         case Node():
             return tuple(value for _, value in tree.arguments)
+        case Member():
+            return (tree.value,)
     return ()
 
 

@@ -24,13 +24,17 @@ COMMON_KEYS = ("type", "id", "doc", "from", "ops", "when", "only", "during", "en
 
 @dataclass(frozen=True)
 class Attribute:
-    """A column that the engine knows: what a name in a signature or a `set` refers to."""
+    """A column that the engine knows: what a name in a signature or a `set` refers to.
+
+    `follows` names the attribute whose value at birth is this one's default.
+    """
 
     name: str
     type: str
     default: Any
     unit: str
     doc: str
+    follows: str = ""
 
 
 ATTRIBUTES = {
@@ -43,6 +47,15 @@ ATTRIBUTES = {
         Attribute("color", "color", (1.0, 1.0, 1.0), "", "Linear-light colour."),
         Attribute("opacity", "float", 1.0, "", "1 is opaque at the centre, 0 is not there."),
         Attribute("mass", "float", 1.0, "kg", "Mass, for forces."),
+        Attribute("type", "float", 0.0, "", "A number to tell kinds of particles apart."),
+        Attribute("rest_position", "vec3", (0.0, 0.0, 0.0), "m", "Where it belongs; where it was born, unless set.", "position"),
+        Attribute("initial_velocity", "vec3", (0.0, 0.0, 0.0), "m/s", "The velocity it was born with, unless set.", "velocity"),
+        Attribute("fade_color", "color", (1.0, 1.0, 1.0), "", "A colour to fade to."),
+        Attribute("normal", "vec3", (0.0, 1.0, 0.0), "", "Normal of the surface that it comes from."),
+        Attribute("tangent", "vec3", (0.0, 1.0, 0.0), "", "Up-most tangent of the surface that it comes from."),
+        Attribute("hits", "float", 0.0, "", "How often it has met a surface; counted by the engine."),
+        Attribute("lives", "float", 0.0, "", "How many lives it had before this one; counted by `recycle`."),
+        Attribute("generation", "float", 0.0, "", "How many spawns it is away from an emitter; counted by `spawn`."),
         Attribute("life", "float", INFINITY, "s", "Age at which the particle dies."),
     )
 }
