@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
@@ -14,7 +13,8 @@ from graphfx.plan.birth import write_birth
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.liveness import Attributes, find_attributes
-from graphfx.plan.motion import Motion, Mover, mover_of
+from graphfx.plan.method import choose_method
+from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.steps import FrameWriter
 from graphfx.plan.support import check_support
@@ -167,35 +167,3 @@ def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[I
 
 def _nonzero(value: Value | None) -> bool:
     return value is not None and not (isinstance(value, Literal) and not any(value.value))
-
-
-def _has_role(movers: list[Mover], role: str) -> bool:
-    return any(mover.role == role for mover in movers)
-
-
-def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[str, str]:
-    """Return how the motion is computed, and why: the most exact form that the operators allow.
-
-    `drifts` tells whether velocities carry particles beside the operators.
-    """
-    asked = flat.time.method
-    if asked == "sims":
-        return "sims", "asked for: the paper's scheme, first order, operations in stack order"
-    inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]
-    parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
-    if not parts or (drifts and not _has_role(movers, "linear")):
-        parts.insert(0, "free flight")
-    names = ", ".join(parts)
-    if not inner:
-        changing = [mover.node.node_type.name for mover in movers if mover.role == "linear" and not mover.constant]
-        if changing:
-            held = ", ".join(changing)
-            return "exact", f"all motion is linear ({names}): exact but for {held}, taken at the middle of each step"
-        return "exact", f"all motion is linear ({names}): one exact step"
-    if len(inner) == 1 and inner[0].role == "flow" and inner[0].time_free and not drifts and not _has_role(movers, "linear"):
-        return "exact", f"one flow and nothing else ({names}): one exact step"
-    if asked == "exact":
-        raise GraphError(
-            Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")
-        )
-    return "strang", f"flows that do not commute ({names}): composed symmetrically, second order"
