@@ -17,3 +17,10 @@ def check(document: Document, library: Library) -> list[Problem]:
     if not checking.problems:
         checking.problems.extend(check_flat(graph, checking))
     return in_order(checking.problems, document.file)
+
+
+def check_part(document: Document, library: Library) -> list[Problem]:
+    """Return what is wrong with a part of a graph by itself: nodes that it names may be missing."""
+    checking = Checking(library, document.limits)
+    read_graph(document, checking, starting_from(document), whole=False)
+    return in_order(checking.problems, document.file)

@@ -33,8 +33,11 @@ class Groups:
     chain: list[tuple[Path, str]] = field(default_factory=list)
 
 
-def read_graph(document: Document, checking: Checking, groups: Groups | None = None) -> Graph:
-    """Return the graph that a document says, as far as it is right; problems go to `checking`."""
+def read_graph(document: Document, checking: Checking, groups: Groups | None = None, whole: bool = True) -> Graph:
+    """Return the graph that a document says, as far as it is right; problems go to `checking`.
+
+    A part of a graph, not `whole`, may name nodes that are not in it.
+    """
     groups = groups or Groups()
     before = len(checking.problems)
     checking.problems.extend(document.problems)
@@ -57,9 +60,10 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     reader = ValueReader(checking, literals)
     values = NamedValues(checking, reader, part("values"), Scope("", "", graph.params, lambda name: None, broken=graph.broken))
     _nodes(checking, graph, part("nodes"), NodeReader(checking, graph, reader, values))
-    check_references(checking, graph)
-    around.outputs(part("outputs"))
-    around.expose(part("expose"))
+    if whole:
+        check_references(checking, graph)
+        around.outputs(part("outputs"))
+        around.expose(part("expose"))
     graph.sound = len(checking.problems) == before
     return graph
 
