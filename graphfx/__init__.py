@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "load"]
+__all__ = ["Graph", "__version__", "load"]
 
 
 def __getattr__(name: str) -> Any:
@@ -14,4 +14,8 @@ def __getattr__(name: str) -> Any:
         from graphfx.cook.effect import load
 
         return load
+    if name == "Graph":
+        from graphfx.authoring import Graph
+
+        return Graph
     raise AttributeError(f"module 'graphfx' has no attribute '{name}'")
