@@ -16,6 +16,11 @@ NEUTRAL = {
     "damp": {"damping": 0.0},
     "gravity": {"acceleration": Vec3(0.0, 0.0, 0.0)},
     "translate": {"rate": Vec3(0.0, 0.0, 0.0)},
+    "rotate": {"speed": 0.0},
+    "scale": {"rate": 0.0},
+    "attract": {"strength": 0.0},
+    "attract_line": {"strength": 0.0},
+    "wind": {"drag": 0.0},
 }
 """Parameters at which each operator's `neutral` holds."""
 
@@ -23,6 +28,8 @@ NEUTRAL = {
 def random_argument(node_type: NodeType, name: str, generator: np.random.Generator) -> object:
     if node_type.argument_type(name) in ("float", "int"):
         return np.float64(generator.uniform(0.1, 2.0))
+    if node_type.argument_type(name) == "bool":
+        return np.bool_(generator.integers(2))
     vector = generator.normal(size=3)
     return Vec3(*(vector / np.linalg.norm(vector) if node_type.argument_type(name) == "direction" else vector))
 
