@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-import re
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
+from graphfx.authoring.sample import sample
 from graphfx.graph.document import document_of
 from graphfx.graph.format import canonical
-from graphfx.node import INFINITY, NUMERIC_TYPES, Library, NodeType, Parameter
+from graphfx.node import Library, NodeType, Parameter
+from graphfx.node.roles import treatment
 
 
 def first_line(node_type: NodeType) -> str:
@@ -32,11 +33,48 @@ def describe(node_type: NodeType, library: Library) -> str:
     parts = [f"{node_type.name} ({node_type.kind}, {role(node_type)})", "", node_type.doc.strip(), ""]
     if node_type.parameters:
         parts += ["Parameters", *parameter_lines(node_type.parameters), ""]
-    facts = [("reads", ", ".join(node_type.reads)), ("writes", ", ".join(node_type.writes)),
-             ("gives", ", ".join(node_type.result) if node_type.kind == "values" else ""),
-             ("left out when", node_type.neutral), ("declared in", shown_path(node_type.location.file))]
-    parts += [f"{name}: {text}" for name, text in facts if text]
-    return "\n".join([*parts, "", "A graph that runs", "", canonical(document_of(sample(node_type)), library).rstrip()])
+    parts += [f"{name.replace('_', ' ')}: {text}" for name, text in facts(node_type).items() if text]
+    text = canonical(document_of(sample(node_type, library)), library)
+    return "\n".join([*parts, "", "A graph that runs", "", text.rstrip()])
+
+
+def facts(node_type: NodeType) -> dict[str, str]:
+    """Return what a node type's declaration says besides its parameters, in the order of its docs."""
+    own = [name for name in node_type.reserved if not node_type.language]
+    return {
+        "reads": ", ".join(node_type.reads),
+        "given_by_the_engine": ", ".join(own),
+        "writes": ", ".join(node_type.writes),
+        "gives": ", ".join(node_type.result) if node_type.kind == "values" else "",
+        "the_engine": treatment(node_type.role),
+        "left_out_when": node_type.neutral,
+        "declared_in": shown_path(node_type.location.file),
+    }
+
+
+def node_data(node_type: NodeType, library: Library) -> dict[str, Any]:
+    """Return everything about a node type as JSON data."""
+    parameters = {
+        parameter.name: {"type": parameter.type, "default": json.loads(default_text(parameter)) if _stated(parameter) else None,
+                         "required": parameter.required, "unit": parameter.unit, "min": parameter.min, "max": parameter.max,
+                         "choices": list(parameter.choices), "doc": parameter.doc}
+        for parameter in node_type.parameters.values()}
+    return {"name": node_type.name, "kind": node_type.kind, "role": node_type.role, "doc": node_type.doc.strip(),
+            "parameters": parameters, **facts(node_type), "sample": sample(node_type, library)}
+
+
+def mentions(word: str, library: Library) -> list[str]:
+    """Return the node types whose name or text speaks of a word, a line each; those named so first, then by their summary."""
+    wanted = word.lower().replace("_", " ")
+    ranks: dict[str, int] = {}
+    for name in library:
+        text = library[name].doc.lower()
+        places = (name.replace("_", " "), first_line(library[name]).lower(), text)
+        rank = next((rank for rank, place in enumerate(places) if wanted in place), None)
+        if rank is not None:
+            ranks[name] = rank
+    width = max(map(len, ranks), default=0)
+    return [f"{name:{width}}  {first_line(library[name])}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
 
 
 def shown_path(file: str) -> str:
@@ -66,6 +104,10 @@ def default_text(parameter: Parameter) -> str:
     return json.dumps(_plain(parameter.default)).replace("Infinity", '"infinity"')
 
 
+def _stated(parameter: Parameter) -> bool:
+    return not parameter.required and parameter.default is not None
+
+
 def _plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
@@ -80,55 +122,3 @@ def range_text(parameter: Parameter) -> str:
     if low is not None and high is not None:
         return f"{low} to {high}"
     return f"at least {low}" if low is not None else f"at most {high}" if high is not None else ""
-
-
-def sample(node_type: NodeType) -> dict[str, Any]:
-    """Return a small graph in which a node type does its work."""
-    source: dict[str, Any] = {"type": "emit", "rate": 200, "life": 2,
-                              "set": {"position": {"in_sphere": {"radius": 1}}, "velocity": [0, 1, 0]}}
-    nodes: dict[str, Any] = {"source": source}
-    ops: list[dict[str, Any]] = []
-    if node_type.kind == "values":
-        if node_type.result[0] == "vec3":
-            source["set"]["position"] = {node_type.name: given(node_type)}
-        else:
-            source |= {"values": {"speed": {node_type.name: given(node_type)}}}
-            source["set"]["velocity"] = {"expr": "vec(0, speed, 0)"}
-    elif node_type.role == "stack":
-        ops = [{"type": "gravity"}, {"type": "vortex"}]
-    elif node_type.kind == "operators":
-        ops = [{"type": node_type.name, **given(node_type)}]
-    elif node_type.kind == "selectors":
-        nodes["chosen"] = {"type": node_type.name, "from": "source", **given(node_type)}
-    if ops:
-        nodes["motion"] = {"type": "stack", "from": "source", "ops": ops}
-    seen = list(nodes)[-1]
-    nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
-    nodes["frames"] = {"type": "image", "from": [seen], "camera": "view", "size": [640, 360]}
-    return {"graphfx": 1, "time": {"frames": [1, 48]}, "nodes": nodes}
-
-
-def given(node_type: NodeType) -> dict[str, Any]:
-    """Return the parameters that a sample must state: required ones, and one where the defaults do nothing."""
-    stated = {name: example(parameter) for name, parameter in node_type.parameters.items() if parameter.required}
-    decisive = [parameter for name, parameter in node_type.parameters.items() if re.search(rf"\b{name}\b", node_type.neutral)]
-    if decisive and not stated and not any(map(_differs_from_zero, decisive)):
-        stated[decisive[0].name] = example(decisive[0])
-    return stated
-
-
-def _differs_from_zero(parameter: Parameter) -> bool:
-    return any(parameter.default) if isinstance(parameter.default, tuple) else bool(parameter.default)
-
-
-def example(parameter: Parameter) -> Any:
-    """Return a value that a parameter takes, and that is not zero where it need not be."""
-    if parameter.choices:
-        return parameter.choices[0]
-    if NUMERIC_TYPES.get(parameter.type) == 3:
-        return [1, 0, 0]
-    if parameter.type == "bool":
-        return True
-    low = -INFINITY if parameter.min is None else parameter.min
-    high = INFINITY if parameter.max is None else parameter.max
-    return _plain(min(max(1.0, low), high)) if parameter.type in NUMERIC_TYPES else parameter.name

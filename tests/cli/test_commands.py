@@ -8,11 +8,13 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from graphfx.cli.node_docs import describe, sample
+from graphfx.authoring.sample import sample
+from graphfx.cli.node_docs import describe
 from graphfx.graph.check import check
 from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, bundled_root
+from graphfx.node.roles import treatment
 from graphfx.plan.make import make_plan
 
 LIBRARY = Library()
@@ -91,17 +93,36 @@ def test_description_is_complete(name: str) -> None:
     for parameter in node_type.parameters.values():
         assert any(line.startswith(f"  {parameter.label} ") and line.endswith(parameter.doc) for line in text.splitlines())
     assert str(Path(node_type.location.file).name) in text
+    assert f"the engine: {treatment(node_type.role)}\n" in text
 
 
 @pytest.mark.parametrize("name", sorted(LIBRARY))
 def test_sample_runs(name: str) -> None:
     """The graph shown with a node is sound, and its plan keeps the node."""
-    node_type, document = LIBRARY[name], document_of(sample(LIBRARY[name]))
+    node_type, document = LIBRARY[name], document_of(sample(LIBRARY[name], LIBRARY))
     assert check(document, LIBRARY) == []
     flat = flatten(document, LIBRARY)
     kept = {flat.nodes[path].node_type.name for path in make_plan(flat).schedule.order}
     assert name in kept or node_type.role == "stack" or node_type.kind == "values"
-    assert f'"{name}"' in json.dumps(sample(node_type))
+    assert f'"{name}"' in json.dumps(sample(node_type, LIBRARY))
+
+
+def test_words_find_nodes(invoke) -> None:
+    """A word that is no node type finds those whose text speaks of it, the nearest first."""
+    assert invoke("nodes", "parabola") == (2, "", "there is no node type 'parabola'. These speak of it:\n"
+                                           f"  gravity  {LIBRARY['gravity'].doc.splitlines()[0]}\n")
+    swirl = invoke("nodes", "swirl").err.splitlines()
+    assert swirl[1].split()[0] == "vortex"
+
+
+def test_nodes_as_data(invoke) -> None:
+    """--json gives the same facts as data, of one type or of all."""
+    one, every = json.loads(invoke("nodes", "vortex", "--json").out), json.loads(invoke("nodes", "--json").out)
+    assert one["parameters"]["tightness"] | {"doc": ""} == {
+        "type": "float", "default": 1.5, "required": False, "unit": "", "min": 0, "max": 8, "choices": [], "doc": ""}
+    assert (one["kind"], one["role"], one["writes"], one["given_by_the_engine"]) == ("operators", "flow", "position", "dt")
+    assert one in every
+    assert [node["name"] for node in every] == sorted(LIBRARY)
 
 
 DRIFT = '''"""Drift: a slow wind."""
