@@ -10,7 +10,7 @@ import numpy as np
 
 from graphfx.cook.births import Births
 from graphfx.cook.executor import Executor, Job
-from graphfx.motion.clock import Clock, Interval
+from graphfx.motion.clock import Clock, Interval, cell_time
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.values import find_step_values
@@ -169,7 +169,10 @@ class Simulation:
         opening = max(interval.length - self.plan.shutter / self.plan.flat.time.fps, 0.0)
         values: dict[int, Any] = {}
         for name, uniform in made.times.items():
-            if isinstance(name, tuple):
+            if isinstance(name, tuple) and name[0].startswith("cell"):
+                kind, k, number = name
+                values[id(uniform)] = cell_time(kind, interval.start, k * length, length, number, made.cells)
+            elif isinstance(name, tuple):
                 kind, k = name
                 values[id(uniform)] = {
                     "start": k * length,

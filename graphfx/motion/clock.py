@@ -13,6 +13,10 @@ from fractions import Fraction
 
 DENOMINATOR = 1_000_000
 """Rates and prerolls are taken as fractions with at most this denominator: 23.976 is exact, as is 1/3."""
+CELL_RATE = 24
+"""Cells of held noise in a second: a draw of noise holds for 1/24 s, whatever the frames and steps are."""
+ON_THE_EDGE = 1e-6
+"""A step that begins so little before a cell's end [cells] begins in the next."""
 
 
 @dataclass(frozen=True)
@@ -64,3 +68,30 @@ class Clock:
     @property
     def _before(self) -> Fraction:
         return Fraction(self.preroll).limit_denominator(DENOMINATOR)
+
+
+def most_cells(fps: float, preroll: float, substeps: int) -> int:
+    """Return how many cells of noise, of 1/24 s from time 0, one of `substeps` equal steps of a frame may meet at most."""
+    rate = Fraction(fps).limit_denominator(DENOMINATOR)
+    cells = Fraction(CELL_RATE) / (rate * substeps)
+    whole_frames = (Fraction(preroll).limit_denominator(DENOMINATOR) * rate).denominator == 1
+    if whole_frames and 1 in (cells.numerator, cells.denominator):
+        return math.ceil(cells)
+    return math.ceil(cells) + 1
+
+
+def cell_time(kind: str, start: float, begin: float, length: float, number: int, cells: int) -> float:
+    """Return the "cell" number, "cell begin" or "cell end" [s from `start`] of the `number`-th of `cells` that a step may meet.
+
+    `start` is the frame's [s]; the step begins at `start + begin`. The first cell begins, and the last ends, beyond the
+    step. Numbers count modulo 2^32. A step that meets one cell alone is in that of its middle.
+    """
+    if cells == 1:
+        cell = math.floor((start + begin + length / 2) * CELL_RATE)
+    else:
+        cell = math.floor((start + begin) * CELL_RATE + ON_THE_EDGE) + number
+    if kind == "cell":
+        return cell & 0xFFFFFFFF
+    if kind == "cell begin":
+        return cell / CELL_RATE - start if number > 0 else -math.inf
+    return (cell + 1) / CELL_RATE - start if number < cells - 1 else math.inf

@@ -14,17 +14,19 @@ from graphfx.program import Builder, Operand, Program, Uniform
 class FrameProgram:
     """A program with what each run must find: `steps` are the values of each substep, and `times` the uniforms
     that hold times of the frame, by name: "length" and "half" of a step, ("start", k), ("middle", k), ("end", k),
-    "opening", "frame start"."""
+    "opening", "frame start", and ("cell", k, p) with the like for the p-th of `cells` cells of held noise in a step."""
 
     program: Program
     steps: list[StepValues]
     times: dict[Any, Uniform] = field(default_factory=dict)
+    cells: int = 1
 
     def time(self, builder: Builder, name: Any) -> Uniform:
         """Return the uniform of a time, made when it is first asked for."""
         if name not in self.times:
-            shown = name if isinstance(name, str) else f"{name[0]} {name[1]}"
-            self.times[name] = builder.uniform(shown, "word" if name == "frame word" else "float")
+            shown = name if isinstance(name, str) else " ".join(map(str, name))
+            is_word = name == "frame word" or name[0] == "cell"
+            self.times[name] = builder.uniform(shown, "word" if is_word else "float")
         return self.times[name]
 
 

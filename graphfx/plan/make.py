@@ -13,7 +13,7 @@ from graphfx.plan.birth import write_birth
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.liveness import Attributes, find_attributes
-from graphfx.plan.method import choose_method
+from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.steps import FrameWriter
@@ -142,7 +142,7 @@ def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[I
     attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)
     has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
     method, reason = choose_method(movers, flat, has_velocity)
-    motion = Motion(movers, method, has_velocity)
+    motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method))
     writer = FrameWriter(node, attributes, motion, flat.seed, flat.time.precision, flat.time.substeps)
     moves = bool(movers) or has_velocity
     birth = write_birth(node, attributes, flat.seed, flat.time.precision)

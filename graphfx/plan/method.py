@@ -3,12 +3,20 @@
 from __future__ import annotations
 
 from graphfx.errors import GraphError, Problem
-from graphfx.graph.flat import FlatGraph
+from graphfx.graph.flat import FlatGraph, TimeSettings
+from graphfx.motion.clock import most_cells
 from graphfx.plan.motion import Mover
 
 
 def _has_role(movers: list[Mover], role: str) -> bool:
     return any(mover.role == role for mover in movers)
+
+
+def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
+    """Return how many cells of held noise a step may meet; it is split where they meet. The paper's steps are whole."""
+    if not _has_role(movers, "noise") or method == "sims":
+        return 1
+    return most_cells(time.fps, time.preroll, time.substeps)
 
 
 def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[str, str]:

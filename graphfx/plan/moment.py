@@ -26,9 +26,15 @@ class State:
 
 @dataclass
 class Moment:
-    """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, and how to open a mask."""
+    """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, and how to open a mask.
+
+    `then` is when it begins [s from the start of the frame]. `cell_time` gives a time of the p-th cell of held noise
+    that the step meets: "cell" is its number, "cell begin" and "cell end" its ends.
+    """
 
     builder: Builder
     dt: Operand
     half: Callable[[], Operand]
     writer: ValueWriter
+    then: Operand
+    cell_time: Callable[[str, int], Operand]

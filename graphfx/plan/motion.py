@@ -75,6 +75,7 @@ class Motion:
     movers: list[Mover]
     method: str
     has_velocity: bool
+    cells: int = 1
     _cached: dict[tuple[int, int], dict[str, Operand]] = field(default_factory=dict)
 
     def of(self, role: str) -> list[Mover]:

@@ -24,6 +24,7 @@ from graphfx.plan.sharing import share
 from graphfx.plan.values import StepValues, ValueWriter
 from graphfx.program import Builder, Column, Operand, Uniform
 
+ZERO_TIME = Uniform("0", "float", 0.0)
 MOST_CONTACTS = 100
 """Contacts of one particle in one step; one that has more is reported and rests."""
 
@@ -44,7 +45,7 @@ class FrameWriter:
     def main(self, opening_step: int) -> FrameProgram:
         """Return the program for whole steps; the shutter opens in substep `opening_step` (-1: no motion blur)."""
         builder = Builder.begin(f"{self.emitter.path}: motion")
-        made = FrameProgram(builder.program, [])
+        made = FrameProgram(builder.program, [], cells=self.motion.cells)
         state = self._state(builder)
         self.shared = {}
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
@@ -75,14 +76,14 @@ class FrameWriter:
     def own(self, motion_blur: bool) -> FrameProgram:
         """Return the program for particles with times of their own: `begin` and `end` come by place."""
         builder = Builder.begin(f"{self.emitter.path}: motion in own time")
-        made = FrameProgram(builder.program, [])
+        made = FrameProgram(builder.program, [], cells=self.motion.cells)
         state = self._state(builder)
         self.shared = {}
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
         tail = builder.call(basic.copy_vector, state.position, name="tail") if motion_blur else None
         start = made.time(builder, "frame start")
-        first = self._lane_moment(builder, made, now, now, start)
+        first = self._lane_moment(builder, made, 0, now, now, start)
         self.motion.prepare(first, state)
         unfinished: Column | None = None
         for k in range(self.substeps):
@@ -91,7 +92,7 @@ class FrameWriter:
             if resting is not None:
                 going = builder.call(basic.but_not, going, resting, into=going)
             inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
-            self._own_step(inner, made, state, now, finish, start, resting, tail)
+            self._own_step(inner, made, k, state, now, finish, start, resting, tail)
             again = inner.call(basic.is_less, now, finish)
             if resting is not None:
                 again = inner.call(basic.but_not, again, resting)
@@ -111,6 +112,7 @@ class FrameWriter:
         self,
         inner: Builder,
         made: FrameProgram,
+        k: int,
         state: State,
         now: Column,
         finish: Column,
@@ -125,7 +127,7 @@ class FrameWriter:
         contacts = Contacts(self.motion, self.precision)
 
         def moment_of(builder: Builder, dt: Column) -> Moment:
-            return self._lane_moment(builder, made, then, dt, start)
+            return self._lane_moment(builder, made, k, then, dt, start)
 
         contacts.own_step(inner, moment_of, state, step, resting)
         inner.call(basic.sum_of_numbers, then, step, into=now)
@@ -173,13 +175,20 @@ class FrameWriter:
         scope = self._scope(builder, self._reader(builder, state, lambda: made.time(builder, ("middle", k))))
         clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")})
         writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
-        return Moment(builder, made.time(builder, "length"), lambda: made.time(builder, "half"), writer)
+        return Moment(
+            builder,
+            made.time(builder, "length"),
+            lambda: made.time(builder, "half"),
+            writer,
+            made.time(builder, ("start", k)) if self.motion.cells > 1 else ZERO_TIME,
+            lambda kind, p: made.time(builder, (kind, k, p)),
+        )
 
     def _share(self, writer: ValueWriter) -> ValueWriter:
         writer.shared = self.shared
         return writer
 
-    def _lane_moment(self, builder: Builder, made: FrameProgram, then: Column, dt: Column, start: Operand) -> Moment:
+    def _lane_moment(self, builder: Builder, made: FrameProgram, k: int, then: Column, dt: Column, start: Operand) -> Moment:
         lane = LazyClock(
             {
                 "half": lambda: builder.call(basic.half, dt, name="half"),
@@ -192,7 +201,7 @@ class FrameWriter:
         state = self._state(builder)
         scope = self._scope(builder, self._reader(builder, state, lambda: lane["middle"]))
         writer = self._share(ValueWriter(builder, scope, lane, None, self.precision))
-        return Moment(builder, dt, lambda: lane["half"], writer)
+        return Moment(builder, dt, lambda: lane["half"], writer, then, lambda kind, p: made.time(builder, (kind, k, p)))
 
     def _reader(self, builder: Builder, state: State, middle: Any) -> Any:
         def read(name: str) -> Operand:
