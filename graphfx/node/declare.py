@@ -109,7 +109,7 @@ def _result_types(annotation: Any) -> tuple[str, ...]:
 
 
 def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any = (), language: bool = False,
-            neutral: str = "", exact_if: str = "", branches: bool = False) -> NodeType:
+            neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None, branches: bool = False) -> NodeType:
     """Read a function's signature into a `NodeType`; raise `NodeError` at the function's own line."""
     source = Path(inspect.getsourcefile(function) or "")
     location = Location(str(source), function.__code__.co_firstlineno)
@@ -147,7 +147,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     if role == "surface":
         parameters |= {parameter.name: parameter for parameter in RESPONSE}
     return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters,
-                    result, writes, neutral, exact_if, branches, language, doc, location)
+                    result, writes, neutral, exact_if, branches, language, doc, location, linear)
 
 
 def _decorator(kind: str, role: str, **fixed: Any) -> Callable[..., Any]:
@@ -165,22 +165,26 @@ class operator:
     """What an operator declares decides how time is handled.
 
     `neutral=` is a condition on the parameters under which the operator does nothing and is left out;
-    `exact_if=` one under which it has an exact form that the engine knows; `branches=True` runs it lane
-    by lane, thirteen times slower, so that its body may use `if`.
+    `exact_if=` one under which it has an exact form that the engine knows: for a flow with `linear=`, the
+    function of a rate of change (its arguments are among the flow's), that it is then a linear operator;
+    `branches=True` runs it lane by lane, thirteen times slower, so that its body may use `if`.
     """
 
     assign = staticmethod(_decorator("operators", "assign"))
     """New values of attributes, at the operator's moment."""
     flow = staticmethod(_decorator("operators", "flow"))
-    """The exact change over dt."""
+    """The exact change over dt. One that writes position and velocity is the whole motion of a particle on which nothing
+    else acts: its velocity carries it. Together with others it acts on the velocity alone, which carries it once."""
     linear = staticmethod(_decorator("operators", "linear"))
     """Its part of the rate of change, linear in position and velocity."""
     acceleration = staticmethod(_decorator("operators", "acceleration", writes="velocity"))
     """Acceleration at (position, velocity, time)."""
+    velocity = staticmethod(_decorator("operators", "velocity", writes="position"))
+    """Applied velocity at (position, time)."""
     surface = staticmethod(_decorator("operators", "surface"))
     """(signed distance, unit normal) of a surface at a position."""
-    noise = staticmethod(_decorator("operators", "noise", writes="velocity"))
-    """A random kick for a time cell."""
+    noise = staticmethod(_decorator("operators", "noise"))
+    """An acceleration that holds for a time cell of 1/24 s; an applied velocity, where it writes the position."""
     pairs = staticmethod(_decorator("operators", "pairs", writes="velocity"))
     """The effect of one neighbour."""
 

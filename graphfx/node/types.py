@@ -102,6 +102,7 @@ class NodeType:
     for values `value`, for language nodes their own name (`emit`, `image`, ...).
     `reads` are attributes in order of the signature; `arguments` all names in that order.
     `writes` are the attributes that the result replaces; `result` is its type(s).
+    `linear` is the rate of change that a flow has where `exact_if` holds.
     """
 
     name: str
@@ -120,6 +121,7 @@ class NodeType:
     language: bool = False
     doc: str = ""
     location: Location = field(default=Location())
+    linear: Callable[..., Any] | None = None
 
     def argument_type(self, name: str) -> str:
         """Return the lane type of one argument: 'float', 'vec3', 'bool', 'draw' or 'id'."""
