@@ -18,11 +18,11 @@ from graphfx.graph.literals import Literals
 from graphfx.graph.model import Graph
 from graphfx.graph.named import NamedValues
 from graphfx.graph.names import ID, TOP_KEYS
+from graphfx.graph.own import OwnReader
 from graphfx.graph.paths import PathRefused, find_file
 from graphfx.graph.scope import Scope
 
 VERSION = 1
-_LATER = {"attributes": "own attributes are not there yet; use those of graphfx: position, velocity, ..."}
 
 
 @dataclass
@@ -57,8 +57,13 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     _use(checking, graph, part("use"), folders, groups)
     around.params(part("params"))
     around.inputs(part("inputs"))
+    own = OwnReader(checking, graph, literals)
+    own.attributes(part("attributes"))
+    own.clusters(part("nodes"))
+    own.merge()
     reader = ValueReader(checking, literals)
-    values = NamedValues(checking, reader, part("values"), Scope("", "", graph.params, lambda name: None, broken=graph.broken))
+    scope = Scope("", "", graph.params, lambda name: None, broken=graph.broken, own=graph.attributes, clusters=graph.clusters)
+    values = NamedValues(checking, reader, part("values"), scope)
     _nodes(checking, graph, part("nodes"), NodeReader(checking, graph, reader, values))
     if whole:
         check_references(checking, graph)
@@ -70,9 +75,7 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
 
 def _top(checking: Checking, root: Item) -> None:
     for key, _ in root.entries():
-        if key in _LATER:
-            checking.complain(root.key_location(key), key, _LATER[key])
-        elif key not in TOP_KEYS:
+        if key not in TOP_KEYS:
             checking.complain(root.key_location(key), key, f"a graph has no key '{key}'." + suggestion(key, TOP_KEYS),
                               f"its keys: {', '.join(TOP_KEYS[1:])}")
     version = root.value.get("graphfx")

@@ -8,17 +8,18 @@ from graphfx.errors import Location, suggestion
 from graphfx.graph.check_streams import references
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking, counted, declared, takes
+from graphfx.graph.conditions import ConditionReader
 from graphfx.graph.items import Item, shown
 from graphfx.graph.model import Entry, Graph
+from graphfx.graph.moments import check_spawn, is_hit, read_moment
 from graphfx.graph.named import NamedValues
-from graphfx.graph.names import ID, REFERENCE_TYPES, WHEN, WHEN_ROLES, keys_of
+from graphfx.graph.names import ID, REFERENCE_TYPES, SCOPES, keys_of
+from graphfx.graph.own import check_inherited, read_clusters
 from graphfx.graph.scope import Scope
 from graphfx.graph.sets import AttributeReader
-from graphfx.graph.values import Literal
 from graphfx.node import ATTRIBUTES, COMMON_KEYS, OTHER_NAMES, Parameter
 
 _NODE_KINDS = ("emitters", "selectors", "operators", "renders", "geometry")
-_ONLY = Parameter("only", "bool", None, doc="Particles that it acts on.")
 _ENABLED = Parameter("enabled", "bool", None)
 _DURING = Parameter("during", "interval", None, unit="s")
 _SETTLED = "it is decided before the cook, from parameters alone"
@@ -52,7 +53,8 @@ class NodeReader:
             values = NamedValues(self.checking, self.reader, item.value["values"], self.scope(entry, item), self.values)
         self._arguments(entry, item, values)
         if "set" in keys_of(entry.role, entry.kind):
-            AttributeReader(self.checking, self.reader).read(entry, item.value.get("set"), self.scope(entry, item, values))
+            scope = self.scope(entry, item, values)
+            AttributeReader(self.checking, self.reader).read(entry, item.value.get("set"), of_the_born(entry, scope))
         references(self.checking, entry, item, bool(stack))
         if entry.role == "stack":
             self._ops(entry, item)
@@ -61,11 +63,12 @@ class NodeReader:
     def scope(self, entry: Entry, item: Item, values: NamedValues | None = None, uniform: str = "") -> Scope:
         """Return what the values of a node may read."""
         values = values or self.values
-        qualifiers = {"birth"} if entry.kind in ("operators", "selectors", "group") else set()
-        if "when" in item.value and item.value["when"].value == "hit":
+        qualifiers = {"birth"} if entry.kind in ("operators", "selectors", "group") or entry.role == "spawn" else set()
+        if entry.role == "spawn":
+            qualifiers.add("parent")
+        if is_hit(item.value.get("when")):
             qualifiers.add("hit")
-        return Scope(entry.path, entry.seed, self.graph.params, values.get, values.scope.names, uniform, frozenset(qualifiers),
-                     self.graph.broken)
+        return replace(values.scope, path=entry.path, seed=entry.seed, uniform=uniform, qualifiers=frozenset(qualifiers))
 
     def _type(self, entry: Entry, item: Item, inside: bool) -> bool:
         given = item.value.get("type")
@@ -147,20 +150,15 @@ class NodeReader:
         if "during" in item.value and "during" in keys and "during" not in self._parameters(entry):
             entry.during = self.reader.read(item.value["during"], _DURING, settled, "during")
         if "when" in item.value and "when" in keys:
-            self._when(entry, item.value["when"])
-        only = item.value.get("only") if "only" in keys else None
-        if only is not None and only.is_text:
-            entry.only = Literal("selector", only.location, f"{entry.path}.only", "", only.value)
-        elif only is not None:
-            entry.only = self.reader.read(only, _ONLY, scope, "only")
-
-    def _when(self, entry: Entry, item: Item) -> None:
-        path = f"{entry.path}.when"
-        if entry.role not in WHEN_ROLES:
-            self.checking.complain(item.location, path, f"{entry.type_name} acts through the whole step and has no moment; "
-                                   "leave 'when' out, or say \"during\"")
-        else:
-            entry.when = self.checking.choice(item, path, "when", WHEN)
+            read_moment(self.checking, entry, item.value["when"])
+        if "only" in item.value and "only" in keys:
+            entry.only = ConditionReader(self.checking, self.reader).read(item.value["only"], scope, "only")
+        if "clusters" in item.value and "clusters" in keys:
+            read_clusters(self.reader, entry, item.value["clusters"], settled)
+        if "per" in item.value and "per" in keys:
+            entry.per = self.checking.choice(item.value["per"], f"{entry.path}.per", '"per"', (*SCOPES, *scope.clusters))
+        if entry.role == "spawn":
+            check_spawn(self.checking, entry, item)
 
     def _arguments(self, entry: Entry, item: Item, values: NamedValues) -> None:
         parameters = self._parameters(entry)
@@ -178,9 +176,13 @@ class NodeReader:
                     entry.references[parameter.name] = (text, given.location)
             else:
                 scope = self.scope(entry, item, values, why_uniform(entry, parameter))
+                if parameter.name in ATTRIBUTES:
+                    scope = of_the_born(entry, scope)
                 value = self.reader.read(given, parameter, scope, parameter.name)
                 if value is not None:
                     entry.arguments[parameter.name] = value
+        if entry.role == "spawn":
+            check_inherited(self.checking, entry.arguments.get("inherit"), self.graph)
 
     def _ops(self, stack: Entry, item: Item) -> None:
         ops = item.value.get("ops")
@@ -222,10 +224,17 @@ class NodeReader:
         return kind.value if kind is not None and kind.is_text else "?"
 
 
+def of_the_born(entry: Entry, scope: Scope) -> Scope:
+    """Return the scope of attributes that a node sets: what `spawn` makes is only being born, so its birth.x is none yet."""
+    return replace(scope, qualifiers=scope.qualifiers - {"birth"}) if entry.role == "spawn" else scope
+
+
 def why_uniform(entry: Entry, parameter: Parameter) -> str:
     """Return why a parameter cannot vary by particle, or '' where it can."""
     if entry.role == "emit" and parameter.name not in ATTRIBUTES:
         return f"{parameter.name} is one for the whole emitter; it may read time, frame and parameters"
+    if entry.role == "spawn" and parameter.name == "generations":
+        return f"{parameter.name} is one for the whole node; it may read time, frame and parameters"
     if entry.kind in ("renders", "geometry"):
         return f"{entry.type_name} has no particle to read; {parameter.name} may read time, frame and parameters"
     return ""

@@ -6,12 +6,14 @@ from collections.abc import Iterator
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.checking import Checking, declared, listed, nearest
+from graphfx.graph.conditions import check_condition
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry, Graph, StreamReference
+from graphfx.graph.moments import check_surfaces
 from graphfx.graph.names import LOOKS
 from graphfx.node import Parameter
 
-_TAKES_FROM = ("stack", "image")
+_TAKES_FROM = ("stack", "image", "spawn")
 
 
 def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> None:
@@ -22,7 +24,9 @@ def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> No
         _group_inputs(checking, entry, item, inside)
     elif inside:
         return
-    elif entry.role in _TAKES_FROM or entry.kind == "operators":
+    elif entry.role in _TAKES_FROM or entry.kind in ("operators", "selectors"):
+        if given is None and entry.kind == "selectors":
+            return
         if given is None:
             checking.complain(item.location, entry.path,
                               f'{entry.type_name} needs "from", the id of the node whose particles it takes')
@@ -116,7 +120,8 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
     if not node.streams:
         makers = [known for known, entry in graph.nodes.items() if entry.streams]
         checking.complain(reference.location, path,
-                          f"'{name}' is a node of type {node.type_name}, which makes no stream of particles",
+                          f"'{name}' is a node of type {node.type_name}, which makes no stream of particles"
+                          + ('; give it "from", and it passes on those that fit' if node.kind == "selectors" else ""),
                           f"nodes that make a stream: {listed(makers)}")
         return False
     ports = [port for port in node.streams if port]
@@ -140,9 +145,8 @@ def check_references(checking: Checking, graph: Graph) -> None:
         parameters = entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
         for name, (target, location) in entry.references.items():
             _check_node(checking, graph, entry, parameters[name], target, location)
-        if entry.only is not None and entry.only.type == "selector":
-            selector = Parameter("only", "selector", None)
-            _check_node(checking, graph, entry, selector, entry.only.value, entry.only.location)  # type: ignore[attr-defined]
+        check_condition(checking, graph, entry.only)
+        check_surfaces(checking, graph, entry)
     _check_circles(checking, graph)
 
 
@@ -158,6 +162,7 @@ def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Param
         return bool(node.streams) if parameter.type == "stream" else not parameter.choices or node.type_name in parameter.choices
 
     wanted = " or ".join(parameter.choices) or {"node": "node", "mesh": "geometry"}.get(parameter.type, parameter.type)
+    wanted = ("an " if wanted[0] in "aeiou" else "a ") + wanted
     known = [name for name, node in graph.nodes.items() if fits(node)]
     note = f"nodes that fit: {listed(known)}"
     node = graph.nodes.get(target)
@@ -166,7 +171,7 @@ def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Param
                           declared(entry.node_type) if entry.node_type and not known else "")
     elif node.role and not fits(node):
         checking.complain(location, path,
-                          f"{parameter.name} should be the id of a {wanted}; '{target}' is a node of type {node.type_name}", note)
+                          f"{parameter.name} should be the id of {wanted}; '{target}' is a node of type {node.type_name}", note)
 
 
 def walk(graph: Graph) -> Iterator[Entry]:

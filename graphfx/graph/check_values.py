@@ -53,6 +53,10 @@ class ValueReader:
             if reader:
                 place = (reader.value or value).location
                 self.complain(place, path, f"{scope.uniform}; this reads {reader.what}")
+        return self.within_limits(value, item, path)
+
+    def within_limits(self, value: Value, item: Item, path: str) -> Value | None:
+        """Return a value, or None after a complaint that it is too large or too deep."""
         size = measure(value)
         if size.size > self.checking.limits.value_size or size.depth > self.checking.limits.expression_depth:
             self.complain(item.location, path,
@@ -85,7 +89,7 @@ class ValueReader:
 
     def _compound(self, item: Item, want: Parameter, scope: Scope, key: str) -> Value | None:
         path = _join(scope.path, key)
-        nodes = self.checking.types_of("values")
+        nodes = self.checking.types_of("values", "selectors")
         entries = dict(item.entries())
         found = [name for name in entries if name in VALUE_KEYS or name in nodes]
         if len(found) != 1:
@@ -206,7 +210,7 @@ class ValueReader:
 
     def _rand(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
         path, inner = _join(scope.path, key), item.value[name]
-        per = self._choice(item, path, "per", SCOPES, '"per"')
+        per = self._choice(item, path, "per", (*SCOPES, *scope.clusters), '"per"')
         vary = item.value.get("vary")
         share = self.literals.read(vary, Parameter("vary", "float", None, min=0, max=1), f"{path}.vary") if vary else 0.0
         if want.type and lane(want.type) not in ("float", "vec3"):
@@ -231,7 +235,7 @@ class ValueReader:
             return None
         parameters = node_type.parameters
         notes = (takes(name, parameters.values()), declared(node_type))
-        per = self._choice(item, path, "per", SCOPES, '"per"')
+        per = self._choice(item, path, "per", (*SCOPES, *scope.clusters), '"per"')
         kind = node_type.result[0] if node_type.result else ""
         fits = self._fits(item, path, kind, want, name)
         if not inner.is_object:

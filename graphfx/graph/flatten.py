@@ -18,16 +18,18 @@ from graphfx.graph.check_nodes import why_uniform
 from graphfx.graph.check_values import default_value
 from graphfx.graph.checking import Checking, in_order
 from graphfx.graph.document import Document, load_document
-from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.flat import Cluster, FlatGraph, FlatNode
 from graphfx.graph.limits import Limits
 from graphfx.graph.model import Entry, Graph
 from graphfx.graph.names import REFERENCE_TYPES
 from graphfx.graph.overrides import override
+from graphfx.graph.own import CLUSTER_BY, CLUSTER_COUNT, check_inherited
 from graphfx.graph.scope import particle_reader
+from graphfx.graph.sets import wanted_of
 from graphfx.graph.substitute import Substitution, both, overlap
-from graphfx.graph.values import Literal, Value
+from graphfx.graph.values import Expression, Literal, Name, Value
 from graphfx.graph.wiring import Instance, Wiring
-from graphfx.node import ATTRIBUTES, Library, Parameter
+from graphfx.node import Library, Parameter
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class Flattener:
     def _one(self, instance: Instance, entry: Entry, gate: Gate) -> None:
         if entry.group is not None:
             self.flatten(instance.groups[entry.place], gate)
-        elif not (instance.prefix and entry.role == "image"):
+        elif not (instance.prefix and entry.role == "image") and (entry.kind != "selectors" or entry.sources):
             self._add(instance, entry, gate)
 
     def _add(self, instance: Instance, entry: Entry, gate: Gate) -> None:
@@ -78,19 +80,41 @@ class Flattener:
             if parameter.type in REFERENCE_TYPES:
                 continue
             given = entry.arguments.get(parameter.name)
-            value: Value = default_value(parameter, f"{entry.path}.{parameter.name}")
+            value = _default(entry, parameter)
             if given is not None:
                 value = instance.substitution.value(given, parameter)
                 self._uniform(entry, parameter, value, given)
             arguments[parameter.name] = value
-        sets = {name: instance.substitution.value(value, _attribute(name)) for name, value in entry.sets.items()}
+        own = instance.graph.attributes
+        sets = {name: instance.substitution.value(value, wanted_of(name, own)) for name, value in entry.sets.items()}
         references = {name: instance.prefix + target for name, (target, _) in entry.references.items()}
         makes = entry.kind in ("emitters", "operators")
+        only = gate.only if entry.kind == "operators" or entry.role == "spawn" else None
+        if entry.kind == "selectors":
+            only = instance.substitution.selector(entry.name)
         path = instance.prefix + entry.place
         self.nodes[path] = FlatNode(
             path, node_type, instance.sources[entry.place], arguments, sets, references,
-            gate.only if entry.kind == "operators" else None, gate.during if makes else None, entry.when, gate.enabled,
-            instance.looks.get(entry.place, ()), entry.location, frozenset(entry.arguments))
+            only, gate.during if makes else None, entry.when, gate.enabled,
+            instance.looks.get(entry.place, ()), entry.location, frozenset(entry.arguments),
+            tuple(instance.prefix + target for target, _ in entry.surfaces), self._clusters(instance, entry))
+        check_inherited(self.checking, arguments.get("inherit") if entry.role == "spawn" else None, instance.graph)
+
+    def _clusters(self, instance: Instance, entry: Entry) -> dict[str, Cluster]:
+        clusters = {}
+        for name, (count, by) in entry.clusters.items():
+            number = self._settled(instance.substitution, count, CLUSTER_COUNT)
+            way = self._settled(instance.substitution, by, CLUSTER_BY)
+            if number is not None and way is not None:
+                clusters[name] = Cluster(name, int(number), way)
+        return clusters
+
+    def find_surfaces(self) -> None:
+        """Put the surfaces themselves in the place of stacks and groups that hold them."""
+        known = [path for path, node in self.nodes.items() if node.node_type.role == "surface"]
+        for node in self.nodes.values():
+            if node.surfaces:
+                node.surfaces = tuple(path for path in known if any(_inside(path, place) for place in node.surfaces))
 
     def _uniform(self, entry: Entry, parameter: Parameter, value: Value, given: Value) -> None:
         """Complain of a value that varies by particle where a parameter brought it to a place that cannot."""
@@ -106,9 +130,7 @@ class Flattener:
         enabled = self._settled(substitution, entry.enabled, Parameter("enabled", "bool", None))
         during = self._settled(substitution, entry.during, Parameter("during", "interval", None))
         only = entry.only
-        if isinstance(only, Literal) and only.type == "selector":
-            only = Literal("selector", only.location, only.path, "", instance.prefix + only.value)
-        elif only is not None:
+        if only is not None:
             only = substitution.value(only)
             if isinstance(only, Literal):
                 enabled, only = (enabled is not False) and bool(only.value), None
@@ -129,9 +151,23 @@ class Flattener:
         return known.value
 
 
-def _attribute(name: str) -> Parameter:
-    attribute = ATTRIBUTES[name]
-    return Parameter(name, attribute.type, attribute.default, attribute.unit)
+def _default(entry: Entry, parameter: Parameter) -> Value:
+    """Return what a parameter is that the document does not state."""
+    path = f"{entry.path}.{parameter.name}"
+    if (entry.role, parameter.name) == ("spawn", "life"):
+        return Expression("float", entry.location, path, "", Name("parent.life"))
+    if (entry.role, parameter.name) == ("emit", "rate") and _bursts(entry.arguments.get("count")):
+        return Literal("float", entry.location, path, "", 0.0)
+    return default_value(parameter, path)
+
+
+def _bursts(count: Value | None) -> bool:
+    """Return whether a count that a document states makes particles."""
+    return count is not None and not (isinstance(count, Literal) and count.value == 0)
+
+
+def _inside(path: str, place: str) -> bool:
+    return path == place or path.startswith(place + "/")
 
 
 def _whole(graph: Graph, checking: Checking, overrides: Mapping[str, Any] | None = None) -> dict[str, FlatNode]:
@@ -144,7 +180,8 @@ def _whole(graph: Graph, checking: Checking, overrides: Mapping[str, Any] | None
     if checking.problems:
         return {}
     flattener = Flattener(checking)
-    flattener.flatten(Wiring(checking).instance(graph, "", Substitution(checking, given), {}), Gate())
+    flattener.flatten(Wiring(checking).instance(graph, "", Substitution(checking, given, nodes=graph.nodes), {}), Gate())
+    flattener.find_surfaces()
     return flattener.nodes
 
 
@@ -173,4 +210,5 @@ def flatten(source: str | Path | Document, library: Library, overrides: Mapping[
     nodes = _whole(graph, checking, overrides) if not checking.problems else {}
     if checking.problems:
         raise GraphError(in_order(checking.problems, document.file))
-    return FlatGraph(graph.name, graph.file, graph.seed, graph.time, nodes, graph.doc, graph.digest)
+    return FlatGraph(graph.name, graph.file, graph.seed, graph.time, nodes, graph.doc, graph.digest,
+                     {name: attribute for name, (attribute, _) in graph.merged.items() if attribute.type != "cluster"})

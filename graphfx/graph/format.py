@@ -14,9 +14,14 @@ from graphfx.graph.document import Document
 from graphfx.graph.layout import lay_out
 from graphfx.graph.literals import color
 from graphfx.graph.names import (
+    ATTRIBUTE_KEYS,
+    CLUSTER_KEYS,
+    CLUSTER_WAYS,
+    CONDITIONS,
     INTERPOLATIONS,
     KEYS,
     LOOKS,
+    MOMENTS,
     PARAM_KEYS,
     REPEATS,
     SCOPES,
@@ -26,9 +31,10 @@ from graphfx.graph.names import (
 )
 from graphfx.node import ATTRIBUTES, Library, NodeType, Parameter
 
-_FIRST = ("type", "id", "doc", "from", "inputs", "when", "only", "during", "enabled", "seed_key")
-_LAST = ("values", "set", "ops")
+_FIRST = ("type", "id", "doc", "from", "inputs", "when", "only", "during", "enabled", "seed_key", "per")
+_LAST = ("clusters", "values", "set", "ops")
 _MODIFIERS = {"interpolation": INTERPOLATIONS[0], "repeat": REPEATS[0], "over": "normalized_age", "per": SCOPES[0], "vary": 0}
+_VALUES = ("values", "selectors")
 _BROKEN = ("", "nodes")
 _ENDLESS = {"infinity": float("inf"), "-infinity": float("-inf")}
 
@@ -65,16 +71,25 @@ class _Canonical:
         self.used = frozenset(data["use"]) if isinstance(data.get("use"), dict) else frozenset()
         if isinstance(data.get("time"), dict):
             data["time"] = _ordered(data["time"], TIME_KEYS)
-        for key, part in (("params", self.param), ("values", self.value), ("nodes", self.node)):
+        for key, part in (("params", self.param), ("attributes", self.attribute), ("values", self.value), ("nodes", self.node)):
             if isinstance(data.get(key), dict):
                 data[key] = {name: entry if name.startswith("x-") else part(entry) for name, entry in data[key].items()}
-        for key in ("use", "params", "values", "inputs", "outputs", "expose"):
+        for key in ("use", "params", "attributes", "values", "inputs", "outputs", "expose"):
             if data.get(key) in ({}, []):
                 del data[key]
         return data
 
     def param(self, data: Any) -> Any:
         return _ordered(data, PARAM_KEYS) if isinstance(data, dict) else data
+
+    def attribute(self, data: Any) -> Any:
+        return _ordered(data, ATTRIBUTE_KEYS) if isinstance(data, dict) else data
+
+    def cluster(self, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        data = _ordered(data, CLUSTER_KEYS)
+        return {key: self.value(entry) for key, entry in data.items() if (key, entry) != ("by", CLUSTER_WAYS[0])}
 
     def node(self, data: Any) -> Any:
         if not isinstance(data, dict):
@@ -87,23 +102,38 @@ class _Canonical:
             if key.startswith("x-"):
                 continue
             if key in parameters:
-                if _is_default(entry, parameters[key]):
+                burst = key == "rate" and "count" in data
+                if _is_default(entry, parameters[key]) and not burst:
                     del data[key]
                 else:
                     data[key] = self.value(entry)
             elif key in given or key in ("only", "during", "enabled"):
                 data[key] = self.value(entry)
+        self._shared(data, node_type)
+        self._inner(data, node_type)
+        return data
+
+    def _shared(self, data: dict[str, Any], node_type: NodeType | None) -> None:
+        """Leave out the language's own keys where they say what is so anyway."""
+        moment = MOMENTS.get(node_type.role, ("",))[0] if node_type is not None else ""
+        if moment and data.get("when") == moment:
+            del data["when"]
+        if data.get("per") == SCOPES[0] and node_type is not None and node_type.kind == "selectors":
+            del data["per"]
         if data.get("enabled") is True:
             del data["enabled"]
         if data.get("id") == data.get("type"):
             data.pop("id", None)
-        self._inner(data, node_type)
-        return data
 
     def _inner(self, data: dict[str, Any], node_type: NodeType | None) -> None:
         """Put what a node contains into canonical form: operators, attributes, named values, looks."""
         if isinstance(data.get("ops"), list):
             data["ops"] = [self.node(op) for op in data["ops"]]
+        if isinstance(data.get("clusters"), dict):
+            data["clusters"] = {name: entry if name.startswith("x-") else self.cluster(entry)
+                                for name, entry in data["clusters"].items()}
+            if not data["clusters"] and node_type is not None and node_type.role == "emit":
+                del data["clusters"]
         for key, order in (("set", ATTRIBUTES), ("values", ())):
             if isinstance(data.get(key), dict):
                 entries = _ordered(data[key], order)
@@ -123,9 +153,9 @@ class _Canonical:
             return [self.value(part) for part in data]
         if not isinstance(data, dict):
             return data
-        node_type = next((found for key in data if (found := self.type(key)) and found.kind == "values"), None)
-        name = node_type.name if node_type else next((key for key in data if key in VALUE_KEYS), "")
-        modifiers = VALUE_KEYS.get(name, ("per",))
+        node_type = next((found for key in data if (found := self.type(key)) and found.kind in _VALUES), None)
+        name = node_type.name if node_type else next((key for key in data if key in VALUE_KEYS or key in CONDITIONS), "")
+        modifiers = () if name in CONDITIONS else VALUE_KEYS.get(name, ("per",))
         data = _ordered(data, (name, *modifiers))
         for key, entry in list(data.items()):
             if key in modifiers and type(entry) is not bool and entry == _MODIFIERS[key]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from graphfx.errors import NOWHERE, Location
 from graphfx.graph.flat import TimeSettings
 from graphfx.graph.values import Value
-from graphfx.node.types import NodeType, Parameter
+from graphfx.node.types import Attribute, NodeType, Parameter
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,14 @@ class Entry:
     sets: dict[str, Value] = field(default_factory=dict)
     references: dict[str, tuple[str, Location]] = field(default_factory=dict)
     only: Value | None = None
+    """A condition, in which a Literal of type 'selector' stands for the test of a selector node."""
     during: Value | None = None
     when: str = ""
+    surfaces: list[tuple[str, Location]] = field(default_factory=list)
+    clusters: dict[str, tuple[Value, Value]] = field(default_factory=dict)
+    """The number and the way of each cluster of an emitter."""
+    per: str = ""
+    """What has one draw of a selector."""
     enabled: Value | None = None
     ops: list[Entry] = field(default_factory=list)
     seed: str = ""
@@ -72,11 +78,19 @@ class Entry:
         return self.node_type.kind if self.node_type else ""
 
     @property
+    def has_surface(self) -> bool:
+        """Return whether it is a surface, or a stack or a group that holds one."""
+        if self.group is not None:
+            return not self.group.sound or any(entry.has_surface for entry in self.group.nodes.values())
+        return self.role == "surface" or any(op.has_surface for op in self.ops)
+
+    @property
     def streams(self) -> tuple[str, ...]:
         """Return the names of the streams that it makes; one without a name is ''."""
         if self.group is not None:
             return tuple(self.group.outputs)
-        return ("",) if self.role in ("emit", "spawn") or self.kind == "operators" else ()
+        makes = self.kind in ("emitters", "operators") or (self.kind == "selectors" and self.sources)
+        return ("",) if makes else ()
 
 
 @dataclass
@@ -92,6 +106,13 @@ class Graph:
     time: TimeSettings = field(default_factory=TimeSettings)
     use: dict[str, Graph] = field(default_factory=dict)
     params: dict[str, Parameter] = field(default_factory=dict)
+    attributes: dict[str, Attribute] = field(default_factory=dict)
+    """Its own, besides those of graphfx."""
+    attribute_locations: dict[str, Location] = field(default_factory=dict)
+    clusters: dict[str, Location] = field(default_factory=dict)
+    """The names that its emitters give to clusters, and those of an outer graph that it knows of."""
+    merged: dict[str, tuple[Attribute, str]] = field(default_factory=dict)
+    """Own attributes and clusters, its groups' too, with the files that declare them."""
     param_locations: dict[str, Location] = field(default_factory=dict)
     inputs: dict[str, str] = field(default_factory=dict)
     outputs: dict[str, StreamReference] = field(default_factory=dict)

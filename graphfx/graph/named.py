@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
@@ -14,7 +15,7 @@ from graphfx.graph.scope import ALWAYS, READABLE, Scope
 from graphfx.graph.values import Value
 from graphfx.node.types import Parameter
 
-_TAKEN = frozenset({*ALWAYS, *READABLE, *CALLED, *CONSTANTS, *QUALIFIERS, *KEYWORDS, "id"})
+TAKEN = frozenset({*ALWAYS, *READABLE, *CALLED, *CONSTANTS, *QUALIFIERS, *KEYWORDS, "id"})
 
 
 class NamedValues:
@@ -30,14 +31,15 @@ class NamedValues:
         if item is not None and not item.is_object:
             checking.mismatch(item, path, "\"values\" should be an object of named values")
         for name, given in item.entries() if item is not None else ():
-            if not WORD.fullmatch(name) or name in _TAKEN:
-                why = "already means something in expressions" if name in _TAKEN else "is not made of letters, digits and '_'"
+            taken = name in TAKEN or name in scope.own or name in scope.clusters
+            if not WORD.fullmatch(name) or taken:
+                why = "already means something in expressions" if taken else "is not made of letters, digits and '_'"
                 checking.complain(item.key_location(name), f"{path}.{name}",  # type: ignore[union-attr]
                                   f"a value cannot be called '{name}', which {why}; choose another name")
             else:
                 self.items[name] = given
         names = dict.fromkeys([*self.items, *(outer.scope.names if outer else ())])
-        self.scope: Scope = Scope(scope.path, scope.seed, scope.params, self.get, names, broken=scope.broken)
+        self.scope: Scope = replace(scope, named=self.get, names=names, uniform="", qualifiers=frozenset())
         self.path = path
         for name in self._order():
             self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), self.scope, f"values.{name}")

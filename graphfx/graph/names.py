@@ -4,31 +4,49 @@ from __future__ import annotations
 
 import re
 
-TOP_KEYS = ("$schema", "graphfx", "doc", "seed", "time", "use", "params", "values", "inputs", "outputs", "expose", "nodes")
+TOP_KEYS = ("$schema", "graphfx", "doc", "seed", "time", "use", "params", "attributes", "values", "inputs", "outputs", "expose",
+            "nodes")
 TIME_KEYS = ("fps", "frames", "preroll", "substeps", "method", "tolerance", "precision")
 PARAM_KEYS = ("type", "default", "min", "max", "unit", "doc")
+ATTRIBUTE_KEYS = ("type", "default", "unit", "doc")
+ATTRIBUTE_TYPES = ("float", "vec3", "point", "direction", "color", "cluster")
+"""Types of a graph's own attributes; `cluster` tells of a cluster that an emitter around the graph declares."""
+CLUSTER_KEYS = ("count", "by")
+CLUSTER_WAYS = ("turn", "nearest")
+"""How an emitter numbers its particles, the default first."""
 PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "string", "path", "interval", "list")
 REFERENCE_TYPES = ("node", "stream", "selector", "surface", "mesh")
 """Types of parameters that name another node."""
 METHODS = ("auto", "exact", "strang", "adaptive", "rk45", "sims")
 
 KEYS = {
-    "emit": ("type", "doc", "during", "enabled", "seed_key", "values", "set"),
+    "emit": ("type", "doc", "during", "enabled", "seed_key", "clusters", "values", "set"),
+    "spawn": ("type", "doc", "from", "when", "only", "during", "enabled", "seed_key", "values", "set"),
     "stack": ("type", "doc", "from", "only", "during", "enabled", "seed_key", "ops"),
     "operators": ("type", "id", "doc", "from", "when", "only", "during", "enabled", "seed_key"),
     "set": ("type", "id", "doc", "from", "when", "only", "during", "enabled", "seed_key", "set"),
+    "fade": ("type", "id", "doc", "from", "only", "during", "enabled", "seed_key", "set"),
     "group": ("type", "id", "doc", "from", "inputs", "only", "during", "enabled", "seed_key"),
     "image": ("type", "doc", "from", "enabled"),
     "emitters": ("type", "doc", "from", "during", "enabled", "seed_key", "values", "set"),
-    "selectors": ("type", "doc", "seed_key"),
+    "selectors": ("type", "doc", "from", "seed_key", "per"),
     "renders": ("type", "doc", "enabled"),
     "geometry": ("type", "doc", "seed_key"),
 }
 """Keys besides the parameters, by role where the role is here, else by kind; in canonical order."""
 
-WHEN = ("birth", "step", "frame", "hit", "death")
-WHEN_ROLES = ("assign", "set", "spawn", "kill", "recycle")
-"""Roles of operators that act at a moment; all others act through the whole step."""
+MOMENTS = {
+    "assign": ("frame", "step", "birth", "hit", "death"),
+    "set": ("frame", "step", "birth", "hit", "death"),
+    "spawn": ("", "birth", "hit", "death"),
+    "kill": ("step", "frame", "hit"),
+    "recycle": ("death", "step"),
+}
+"""The moments at which a role may act, its default first ('' where it has none); all others act through the whole step."""
+CONDITIONS = ("all", "any", "not")
+"""Conditions made of conditions, in `only`."""
+TAIL = ("tail.radius", "tail.color", "tail.opacity")
+"""What the operator `set` may set of the tail alone."""
 LOOKS = {"blend": ("over", "add"), "falloff": ("linear", "gaussian", "disc"), "streak": ("exposed", "solid")}
 """What an entry of an image's `from` may say, the default first."""
 

@@ -10,19 +10,23 @@ from typing import Any
 
 from graphfx.graph.literals import VECTORS, lane
 from graphfx.graph.names import (
+    ATTRIBUTE_TYPES,
+    CLUSTER_WAYS,
     ID,
     INTERPOLATIONS,
     LOOKS,
     METHODS,
+    MOMENTS,
     PARAM_TYPES,
     REFERENCE_TYPES,
     REPEATS,
     SCOPES,
-    WHEN,
-    WHEN_ROLES,
+    TAIL,
     WORD,
     keys_of,
 )
+from graphfx.graph.own import RESERVED_WORDS
+from graphfx.graph.sets import wanted_of
 from graphfx.node import ATTRIBUTES, Library, NodeType, Parameter
 
 Schema = dict[str, Any]
@@ -33,6 +37,7 @@ _ENDLESS: Schema = {"enum": ["infinity", "-infinity"]}
 _VECTOR: Schema = {"type": "array", "prefixItems": [_NUMBER] * 3, "minItems": 3, "maxItems": 3}
 _INTERVAL: Schema = {"type": "array", "prefixItems": [_NUMBER] * 2, "minItems": 2, "maxItems": 2}
 _HEX = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$"
+_COLOR: Schema = {"type": "string", "pattern": _HEX}
 
 
 def schema(library: Library) -> Schema:
@@ -45,12 +50,14 @@ def schema(library: Library) -> Schema:
         "operator": _choice(operators, "An operator of a stack, or a group with one stream in and one out.", "from"),
         "stream": {"type": "string", "pattern": r"^[A-Za-z_][A-Za-z0-9_-]*(\.[A-Za-z_][A-Za-z0-9_-]*)?$",
                    "description": "The id of a node that makes a stream, or id.output of a group."},
-        "attributes": _closed({name: _place(_of_attribute(name)) for name in ATTRIBUTES}),
+        "attributes": _attributes(tuple(ATTRIBUTES)),
+        "attributes_and_tail": _attributes((*ATTRIBUTES, *TAIL)),
+        "condition": _condition(),
         "any_value": {"anyOf": [{"$ref": f"#/$defs/{kind}_value"} for kind in ("float", "vec3", "bool")] + [
             _NUMBER, _VECTOR, {"type": "string", "pattern": _HEX}, {"type": "boolean"}]},
         "parameter": _parameter_declaration(),
     }
-    values = [node_type for node_type in types if node_type.kind == "values"]
+    values = [node_type for node_type in types if node_type.kind in ("values", "selectors")]
     for kind in ("float", "vec3", "bool"):
         fitting = [node_type for node_type in values if node_type.result and lane(node_type.result[0]) == kind]
         definitions[f"{kind}_value"] = _values(kind, fitting)
@@ -94,6 +101,8 @@ def _top() -> Schema:
         "time": time,
         "use": _map(_TEXT, identifier, "Groups: a name for each, and the path of its file."),
         "params": _map({"$ref": "#/$defs/parameter"}, word, "Parameters of the graph."),
+        "attributes": _map(_closed({"type": {"enum": list(ATTRIBUTE_TYPES)}, "default": {"anyOf": [_NUMBER, _VECTOR, _COLOR]},
+                                    "unit": _TEXT, "doc": _TEXT}, ("type",)), word, "Attributes of the graph's own."),
         "values": _map({"$ref": "#/$defs/any_value"}, word, "Named values, for expressions."),
         "inputs": _map(_closed({"doc": _TEXT}), identifier, "Streams that a group takes."),
         "outputs": _map({"$ref": "#/$defs/stream"}, identifier, "Streams that a group gives."),
@@ -127,7 +136,7 @@ def _type(node_type: NodeType) -> Schema:
     common = {key: part for key, part in _common(node_type).items() if key in keys}
     parameters = {parameter.name: _place(parameter) for parameter in node_type.parameters.values()}
     required = tuple(parameter.name for parameter in node_type.parameters.values() if parameter.required)
-    if node_type.role in ("stack", "set"):
+    if node_type.role in ("stack", "set", "fade"):
         required += ("ops" if node_type.role == "stack" else "set",)
     return _closed({**common, **parameters}, required, _summary(node_type))
 
@@ -144,17 +153,50 @@ def _common(node_type: NodeType) -> Schema:
         "from": {"anyOf": [source, {"type": "array", "items": source, "minItems": 1}],
                  "description": "Whose particles it takes."},
         "ops": {"type": "array", "items": {"$ref": "#/$defs/operator"}, "description": "Operators, in order."},
-        "when": {"enum": list(WHEN)} if node_type.role in WHEN_ROLES else False,
-        "only": {"anyOf": [{"type": "boolean"}, _TEXT, {"$ref": "#/$defs/bool_value"}],
-                 "description": "Particles that it acts on: a condition, or the id of a selector."},
+        "when": _moment(node_type.role),
+        "only": {"$ref": "#/$defs/condition"},
         "during": {"anyOf": [{"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [_NUMBER, _given()]}},
                              _given()],
                    "description": "Start and end of the time that it acts in [s]."},
         "enabled": {"anyOf": [{"type": "boolean"}, _given()], "default": True},
         "seed_key": {"type": "string", "description": "Keys its random numbers in place of its path."},
-        "set": {"$ref": "#/$defs/attributes"},
+        "per": _scope(),
+        "clusters": _map(_closed({"count": {"anyOf": [{"type": "integer", "minimum": 1}, _given()]},
+                                  "by": {"anyOf": [{"enum": list(CLUSTER_WAYS), "default": CLUSTER_WAYS[0]}, _given()]}},
+                                 ("count",)), WORD.pattern, "Numbers given to its particles, for draws that many share."),
+        "set": {"$ref": f"#/$defs/attributes{'_and_tail' * (node_type.role == 'set')}"},
         "values": _map({"$ref": "#/$defs/any_value"}, WORD.pattern, "Named values, for this node's expressions."),
     }
+
+
+def _attributes(names: tuple[str, ...]) -> Schema:
+    """Return the schema of `set`; other names may be the graph's own, but not what others call one of graphfx's."""
+    known = _closed({name: _place(wanted_of(name)) for name in names})
+    own = f"^(?!x-|({'|'.join(sorted(RESERVED_WORDS))})$){WORD.pattern}$"
+    return known | {"patternProperties": {"^x-": True, own: {"$ref": "#/$defs/any_value"}}}
+
+
+def _condition() -> Schema:
+    one = {"$ref": "#/$defs/condition"}
+    many = {"type": "array", "items": one, "minItems": 1}
+    return {"anyOf": [{"type": "boolean"}, _TEXT, {"$ref": "#/$defs/bool_value"}, _closed({"all": many}, ("all",)),
+                      _closed({"any": many}, ("any",)), _closed({"not": one}, ("not",))],
+            "description": "Particles that it acts on: a condition, the id of a selector, or several joined by all, any, not."}
+
+
+def _moment(role: str) -> Schema | bool:
+    """Return what `when` may be."""
+    if role not in MOMENTS:
+        return False
+    moments = [moment for moment in MOMENTS[role] if moment]
+    surfaces = _closed({"hit": {"type": "array", "items": _TEXT, "minItems": 1}}, ("hit",), "Hits on these surfaces.")
+    default = {"default": MOMENTS[role][0]} if MOMENTS[role][0] else {}
+    return {"anyOf": [{"enum": moments}, *([surfaces] if "hit" in moments else [])], **default}
+
+
+def _scope() -> Schema:
+    return {"anyOf": [{"enum": list(SCOPES), "default": SCOPES[0]}, {"type": "string", "pattern": f"^{WORD.pattern}$"}],
+            "description": "What has one draw: also a cluster, by its name."}
 
 
 def _given() -> Schema:
@@ -168,7 +210,7 @@ def _values(kind: str, nodes: list[NodeType]) -> Schema:
     part = {"anyOf": [literal, {"$ref": f"#/$defs/{kind}_value"}]}
     pair = {"type": "array", "prefixItems": [_NUMBER, literal], "minItems": 2, "maxItems": 2}
     pairs = {"type": "array", "items": pair, "minItems": 1}
-    scope = {"enum": list(SCOPES), "default": SCOPES[0], "description": "What has one draw."}
+    scope = _scope()
     forms = [
         _closed({"param": _TEXT}, ("param",), "A parameter of the graph."),
         _closed({"expr": _TEXT}, ("expr",), "An expression of attributes, time, param.x and named values."),
@@ -233,11 +275,6 @@ def _default(parameter: Parameter) -> Any:
     if default in (float("inf"), float("-inf")):
         return "infinity" if default > 0 else "-infinity"
     return list(default) if isinstance(default, tuple) else default
-
-
-def _of_attribute(name: str) -> Parameter:
-    attribute = ATTRIBUTES[name]
-    return Parameter(name, attribute.type, attribute.default, attribute.unit, doc=attribute.doc)
 
 
 def _summary(node_type: NodeType) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
 
@@ -12,14 +12,14 @@ from graphfx.graph.checking import listed, nearest
 from graphfx.graph.functions import CONSTANTS
 from graphfx.graph.literals import lane
 from graphfx.graph.values import Expression, Name, Node, ParameterValue, Random, Value, children
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Parameter
+from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
 
 READABLE = ATTRIBUTES | DERIVED_ATTRIBUTES
 ALWAYS = {"time": "float", "frame": "float"}
 _MOST_NAMES = 2000
 _HIT = {"normal": "vec3", "point": "vec3", "speed": "float"}
 _ELSEWHERE = {
-    "birth": "an emitter's values are made at birth; birth.x is for operators",
+    "birth": "these values are made at birth; birth.x is for operators",
     "parent": "only what `spawn` makes has a parent",
     "hit": 'there is a hit only where the operator says "when": "hit"',
 }
@@ -37,6 +37,9 @@ class Scope:
     uniform: str = ""
     qualifiers: frozenset[str] = frozenset()
     broken: frozenset[str] | set[str] = frozenset()
+    own: Mapping[str, Attribute] = field(default_factory=dict)
+    """The graph's own attributes."""
+    clusters: Collection[str] = ()
     settled: bool = False
     """Whether the value must be known before the cook: time passes, and draws are made, only later."""
 
@@ -52,16 +55,20 @@ class Scope:
         if word in self.names:
             value = self.named(word)
             return (value, lane(value.type)) if value is not None else (None, "")
-        if word in READABLE or word == "id":
+        if f"attributes.{word}" in self.broken:
+            return None, ""
+        found = READABLE.get(word) or self.own.get(word)
+        if found or word in self.clusters or word == "id":
             if self.uniform:
                 return f"'{word}' cannot be read here: {self.uniform}"
-            return Name(word), lane(READABLE[word].type) if word in READABLE else "float"
+            return Name(word), lane(found.type) if found else "float"
         if word in self.params:
             return f"there is no name '{word}'. Did you mean 'param.{word}'?"
         if word in ("param", "birth", "parent", "hit"):
             return f"'{word}' needs a name after it, as in {word}.{next(iter(self.params), 'x')}"
         params = [f"param.{name}" for name in islice(self.params, _MOST_NAMES)]
-        known = [*islice(self.names, _MOST_NAMES), *READABLE, *ALWAYS, *CONSTANTS, *params]
+        known = [*islice(self.names, _MOST_NAMES), *READABLE, *islice(self.own, _MOST_NAMES), *islice(self.clusters, _MOST_NAMES),
+                 *ALWAYS, *CONSTANTS, *params]
         return f"there is no name '{word}'." + suggestion(word, known, OTHER_NAMES)
 
     def _parameter(self, rest: str) -> tuple[Any, str] | str:
@@ -88,9 +95,12 @@ class Scope:
             return f"'{qualifier}.{rest}' cannot be read here: {self.uniform}"
         if qualifier not in self.qualifiers:
             return f"'{qualifier}.{rest}' cannot be read here: {_ELSEWHERE[qualifier]}"
-        known = _HIT if qualifier == "hit" else {name: lane(attribute.type) for name, attribute in ATTRIBUTES.items()}
+        if f"attributes.{rest}" in self.broken:
+            return None, ""
+        stored = READABLE if qualifier == "parent" else ATTRIBUTES
+        known = _HIT if qualifier == "hit" else {name: lane(found.type) for name, found in {**stored, **self.own}.items()}
         if rest not in known:
-            return f"there is no '{qualifier}.{rest}'." + suggestion(rest, known, OTHER_NAMES)
+            return f"there is no '{qualifier}.{rest}'." + suggestion(rest, list(islice(known, _MOST_NAMES)), OTHER_NAMES)
         return Name(f"{qualifier}.{rest}"), known[rest]
 
 

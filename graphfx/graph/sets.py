@@ -2,33 +2,44 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from itertools import islice
+from types import MappingProxyType
 from typing import Any
 
 from graphfx.errors import suggestion
 from graphfx.graph.check_values import ValueReader
-from graphfx.graph.checking import Checking
+from graphfx.graph.checking import Checking, listed
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry
+from graphfx.graph.names import TAIL
 from graphfx.graph.scope import Scope
-from graphfx.graph.values import Name, Node, Value, children
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Parameter
+from graphfx.graph.values import Literal, Name, Node, Random, Value, children
+from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
+
+_COUNTED = ("hits", "lives", "generation")
 
 
-def attributes_read(tree: Any, seen: set[int] | None = None) -> Iterator[str]:
-    """Yield the attributes that a value reads where it stands."""
+def names_read(tree: Any, seen: set[int] | None = None) -> Iterator[str]:
+    """Yield the names that a value reads where it stands, clusters and the scopes of draws among them."""
     seen = set() if seen is None else seen
     if id(tree) in seen:
         return
     seen.add(id(tree))
-    if isinstance(tree, Name) and tree.name in ATTRIBUTES:
-        yield tree.name
-    elif isinstance(tree, Name) and tree.name == "normalized_age":
-        yield "life"
-    elif isinstance(tree, Node) and tree.node_type is not None:
+    if isinstance(tree, Name):
+        yield "life" if tree.name == "normalized_age" else tree.name
+    elif isinstance(tree, Random | Node):
+        yield tree.per
+    if isinstance(tree, Node) and tree.node_type is not None:
         yield from tree.node_type.reads
     for part in children(tree):
-        yield from attributes_read(part, seen)
+        yield from names_read(part, seen)
+
+
+def wanted_of(name: str, own: Mapping[str, Attribute] = MappingProxyType({})) -> Parameter:
+    """Return what an attribute, of graphfx or a graph's own, may be given; what is set of the tail alone is as the attribute."""
+    attribute = own.get(name) or ATTRIBUTES[name.removeprefix("tail.")]
+    return Parameter(name, attribute.type, attribute.default, attribute.unit, doc=attribute.doc)
 
 
 class AttributeReader:
@@ -44,26 +55,35 @@ class AttributeReader:
         if item is None or not item.is_object:
             if item is not None:
                 self.checking.mismatch(item, path, "\"set\" should be an object of attributes")
-            elif entry.role == "set":
-                self.checking.complain(entry.location, entry.path, 'set needs "set": {attribute: value, ...}')
+            elif entry.role in ("set", "fade"):
+                self.checking.complain(entry.location, entry.path, f'{entry.type_name} needs "set": {{attribute: value, ...}}')
             return
         parameters = entry.node_type.parameters if entry.node_type else {}
         sets: dict[str, Value] = {}
         for name, given in item.entries():
             location, at = item.key_location(name), f"{path}.{name}"
-            if name in parameters:
+            own = scope.own.get(name)
+            if name in parameters and own is None:
                 self.checking.complain(location, at,
                                        f"'{name}' is a parameter of {entry.type_name}; write it beside \"set\", not inside")
             elif name in DERIVED_ATTRIBUTES:
                 self.checking.complain(location, at, f"'{name}' follows from birth and life and cannot be set")
-            elif name not in ATTRIBUTES:
-                self.checking.complain(location, at,
-                                       f"there is no attribute '{name}'." + suggestion(name, ATTRIBUTES, OTHER_NAMES),
-                                       f"attributes: {', '.join(ATTRIBUTES)}")
+            elif name in _COUNTED:
+                self.checking.complain(location, at, f"'{name}' is counted by the engine and cannot be set; "
+                                       "give a graph an attribute of its own, under \"attributes\"")
+            elif name in TAIL and entry.role != "set":
+                self.checking.complain(location, at, f"{entry.type_name} sets head and tail alike; "
+                                       f"the operator set sets '{name}'")
+            elif f"attributes.{name}" in scope.broken:
+                continue
+            elif name in scope.clusters:
+                self.checking.complain(location, at, f"'{name}' is a cluster; its emitter gives the numbers")
+            elif name not in ATTRIBUTES and name not in TAIL and own is None:
+                known = [*ATTRIBUTES, *islice(scope.own, 2000), *(TAIL if entry.role == "set" else ())]
+                self.checking.complain(location, at, f"there is no attribute '{name}'." + suggestion(name, known, OTHER_NAMES),
+                                       f"attributes: {listed([*ATTRIBUTES, *scope.own], 40)}")
             else:
-                attribute = ATTRIBUTES[name]
-                want = Parameter(name, attribute.type, attribute.default, attribute.unit)
-                value = self.reader.read(given, want, scope, f"set.{name}")
+                value = self.reader.read(given, wanted_of(name, scope.own), scope, f"set.{name}")
                 if value is not None:
                     sets[name] = value
         entry.sets = self._ordered(entry, sets, parameters, item)
@@ -71,30 +91,36 @@ class AttributeReader:
     def _ordered(self, entry: Entry, sets: dict[str, Value], parameters: dict[str, Parameter], item: Item) -> dict[str, Value]:
         """Return the values so that each comes after those that it reads; complain of circles.
 
-        The operator `set` may read the attribute that it sets: that is its value before. At birth there is none.
+        Only an emitter may not read the attribute that it sets: with `set` and `fade` that is its value before, with
+        `spawn` what was inherited, and at birth there is none.
         """
-        reads = {name: {other for other in attributes_read(value) if other in sets} for name, value in sets.items()}
+        read = {name: set(names_read(value)) for name, value in sets.items()}
+        nearest = {name for name, (_, by) in entry.clusters.items() if not (isinstance(by, Literal) and by.value == "turn")}
+        before = {name: {"position" if other in nearest else other for other in names} for name, names in read.items()}
         ordered: dict[str, Value] = {}
-        trail: list[str] = []
-
-        def visit(name: str) -> None:
-            if name in ordered:
-                return
-            if name in trail:
-                cycle = [*trail[trail.index(name):], name]
-                what = (f"'{name}' reads itself, and at birth it has no value yet; let it read others" if len(cycle) == 2
-                        else f"these attributes read one another in a circle: {' -> '.join(cycle)}")
-                self.checking.complain(item.key_location(name), f"{entry.path}.set.{name}",
-                                       what + "; give one of them a value of its own" * (len(cycle) > 2))
-                return
-            trail.append(name)
-            others = reads[name] - ({name} if entry.role == "set" else set())
-            for other in sets:
-                if other in others:
-                    visit(other)
-            trail.pop()
-            ordered[name] = sets[name]
-
-        for name in sets:
-            visit(name)
+        for start in sets:
+            trail = {} if start in ordered else {start: iter(sets)}
+            while trail:
+                name = next(reversed(trail))
+                other = next((other for other in trail[name] if other in before[name]), None)
+                if other is None:
+                    del trail[name]
+                    ordered[name] = sets[name]
+                elif other in trail and not (other == name and entry.role != "emit"):
+                    names = list(trail)
+                    circle = [*names[names.index(other):], other]
+                    self.checking.complain(item.key_location(other), f"{entry.path}.set.{other}",
+                                           _circular(circle, other in read[other]))
+                elif other not in ordered and other not in trail:
+                    trail[other] = iter(sets)
         return ordered
+
+
+def _circular(circle: list[str], plain: bool) -> str:
+    """Return what is wrong with attributes that read one another."""
+    if len(circle) > 2:
+        return f"these attributes read one another in a circle: {' -> '.join(circle)}; give one of them a value of its own"
+    if plain:
+        return f"'{circle[0]}' reads itself, and at birth it has no value yet; let it read others"
+    return ("'position' is drawn by a cluster whose numbers are those of the nearest seed, and so follow from it; "
+            'number them by "turn", or let it read others')

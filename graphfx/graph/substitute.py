@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from graphfx.graph.check_values import default_value
 from graphfx.graph.checking import Checking
 from graphfx.graph.fold import constant, fold
 from graphfx.graph.items import shown
 from graphfx.graph.literals import lane, out_of_range
+from graphfx.graph.model import Entry
+from graphfx.graph.names import SCOPES
 from graphfx.graph.values import (
     Call,
     Expression,
@@ -26,7 +29,8 @@ from graphfx.node.types import Parameter
 
 @dataclass
 class Substitution:
-    """What stands for the parameters of one instance of a graph; `prefix` is the instance's path with a slash, or ''.
+    """What stands for the parameters of one instance of a graph; `prefix` is the instance's path with a slash, or '',
+    and `nodes` the graph's, among which conditions name selectors.
 
     Values that are shared stay shared: each is substituted once.
     """
@@ -34,6 +38,7 @@ class Substitution:
     checking: Checking
     given: Mapping[str, Value]
     prefix: str = ""
+    nodes: Mapping[str, Entry] = field(default_factory=dict)
     _done: dict[int, tuple[Any, Any]] = field(default_factory=dict)
 
     def seed(self, seed: str) -> str:
@@ -53,6 +58,21 @@ class Substitution:
                                    f"the limits are {limits.value_size:,} and {limits.expression_depth}")
             return Literal(value.type, value.location, value.path, "", (0.0, 0.0, 0.0) if lane(value.type) == "vec3" else 0.0)
         return result
+
+    def selector(self, name: str) -> Node:
+        """Return the test of a selector node: wherever it is used, it draws the same numbers."""
+        entry = self.nodes[name]
+        known = self._done.get(id(entry))
+        if known is None:
+            parameters = entry.node_type.parameters  # type: ignore[union-attr]
+            arguments = tuple(
+                (parameter.name, self.value(entry.arguments[parameter.name], parameter)
+                 if parameter.name in entry.arguments else default_value(parameter, f"{entry.path}.{parameter.name}"))
+                for parameter in parameters.values())
+            test = Node("bool", entry.location, entry.path, self.seed(entry.seed), entry.node_type, arguments,
+                        entry.per or SCOPES[0])
+            known = self._done[id(entry)] = (entry, test)
+        return known[1]  # type: ignore[no-any-return]
 
     def _check(self, result: Literal, value: Value, want: Parameter) -> None:
         message = out_of_range(result.value, want)
@@ -88,6 +108,8 @@ class Substitution:
                 return self._parameter(value)
             case Expression():
                 return self._expression(value)
+            case Literal(type="selector"):
+                return self.selector(value.value)
             case Ramp():
                 return replace(value, over=self._value(value.over), seed=self.seed(value.seed))  # type: ignore[arg-type]
             case Random():

@@ -105,6 +105,7 @@ class Wiring:
             given[name] = (outer.substitution.value(argument, parameter) if argument is not None
                            else default_value(parameter, f"{entry.path}.{name}"))
         seed = outer.substitution.seed(entry.seed) + "/"
-        inner = self.instance(group, f"{outer.prefix}{entry.place}/", Substitution(self.checking, given, seed), inputs)
+        substitution = Substitution(self.checking, given, seed, group.nodes)
+        inner = self.instance(group, f"{outer.prefix}{entry.place}/", substitution, inputs)
         outer.groups[entry.place] = inner
         return inner

@@ -68,7 +68,8 @@ def param(
     return ParameterMark(default, unit, min, max, "direction" if direction else type, choices, doc, required)
 
 
-def _parameter(name: str, argument: inspect.Parameter, fail: Callable[[str], NodeError]) -> Parameter:
+def _parameter(name: str, argument: inspect.Parameter, fail: Callable[[str], NodeError], language: bool) -> Parameter:
+    """Read a parameter; only one of the language may have no default, where the engine finds it."""
     mark = argument.default
     kind = mark.type or _type_name(argument.annotation)
     if kind not in NUMERIC_TYPES and kind not in OTHER_TYPES:
@@ -79,7 +80,7 @@ def _parameter(name: str, argument: inspect.Parameter, fail: Callable[[str], Nod
     if not mark.doc or not mark.doc.strip().endswith("."):
         raise fail(f"parameter '{name}' needs doc= one sentence that ends with a full stop")
     default = mark.default
-    if kind in NUMERIC_TYPES and not mark.required:
+    if kind in NUMERIC_TYPES and not mark.required and not (language and default is None):
         size = NUMERIC_TYPES[kind]
         if size == 3 and (not isinstance(default, tuple) or len(default) != 3):
             raise fail(f"parameter '{name}' needs a default of three numbers, such as (0, 0, 0)")
@@ -127,7 +128,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     reads, reserved, parameters = [], [], {}
     for argument in signature.parameters.values():
         if isinstance(argument.default, ParameterMark):
-            parameters[argument.name] = _parameter(argument.name, argument, fail)
+            parameters[argument.name] = _parameter(argument.name, argument, fail, language)
         elif argument.name in RESERVED:
             reserved.append(argument.name)
         elif argument.name in ATTRIBUTES or argument.name in DERIVED_ATTRIBUTES:

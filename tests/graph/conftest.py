@@ -10,7 +10,8 @@ import pytest
 from graphfx.node import Library, bundled_root
 
 HERE = Path(__file__).parent
-LANGUAGE = ("emitters/emit", "operators/stack", "renders/camera", "renders/image")
+LANGUAGE = ("emitters/emit", "emitters/spawn", "operators/stack", "operators/set", "operators/fade", "operators/kill",
+            "operators/recycle", "renders/camera", "renders/image")
 
 
 @pytest.fixture(scope="session")

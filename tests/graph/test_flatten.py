@@ -146,14 +146,6 @@ def test_a_condition_known_before_the_cook_becomes_enabled(only: Any, enabled: b
     assert (node.only, node.enabled) == (None, enabled)
 
 
-def test_selectors_of_groups_are_their_own(library: Library) -> None:
-    """A selector's id becomes its instance path."""
-    nodes = {"up": {"type": "above"}} | stack(VORTEX | {"only": "up"})
-    assert flat(graph(nodes), library).nodes["fall/vortex"].only == Literal(
-        "selector", flat(graph(nodes), library).nodes["fall/vortex"].only.location, "nodes.fall.ops[0].only", "",
-        "up")  # type: ignore[union-attr]
-
-
 def test_renders_of_a_group_stay_out(library: Library) -> None:
     """A group may carry its own preview; where it is used, only its outputs count."""
     nodes = {"sky": {"type": "emit"}, "split": {"type": "halves", "from": "sky"}}
@@ -227,7 +219,7 @@ def test_everything_flattens(library: Library) -> None:
     found = flatten(load_document(GOOD / "everything.json"), library)
     assert list(found.nodes) == [
         "sky", "fall/vortex", "fall/second", "fall/push_twice/both/push", "fall/push_twice/both/push_once/once", "fall/set",
-        "fall/push", "halves_of_sky/a", "halves_of_sky/b", "halves_of_sky/preview", "alone", "upper", "view", "frames"]
+        "fall/push", "halves_of_sky/a", "halves_of_sky/b", "halves_of_sky/preview", "alone", "view", "frames"]
     assert isinstance(found.nodes["fall/second"].arguments["center"], Keys)
     assert list(found.nodes["sky"].sets) == ["velocity", "position", "color", "radius", "opacity"]
 

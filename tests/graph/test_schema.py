@@ -43,7 +43,7 @@ GOOD: dict[str, Any] = {"graphfx": 1, "nodes": {
     ("nodes/sky/rate", -1), ("nodes/sky/rate", "fast"), ("nodes/sky/rate", [1, 2]), ("nodes/sky/rat", 1),
     ("nodes/sky/from", "sky"),
     ("nodes/sky/set/colour", "#ffffff"), ("nodes/sky/set/color", "red"), ("nodes/sky/set/radius", {"rnd": [1, 2]}),
-    ("nodes/sky/set/radius", {"rand": [1, 2, 3]}), ("nodes/sky/set/radius", {"rand": [1, 2], "per": "day"}),
+    ("nodes/sky/set/radius", {"rand": [1, 2, 3]}), ("nodes/sky/set/radius", {"rand": [1, 2], "per": "by day"}),
     ("nodes/sky/set/radius", {"in_box": {}}), ("nodes/sky/set/position", {"in_box": {"mni": [0, 0, 0]}}),
     ("nodes/sky/set/radius", {"rand": [1, 2], "expr": "1"}), ("nodes/sky/set/radius", {"height": {}}),
     ("nodes/fall/ops/0/tightness", 9), ("nodes/fall/ops/0/tightnes", 1), ("nodes/fall/ops/0/axis", [0, 1]),
