@@ -20,6 +20,7 @@ ENGINE = {
     "math": set(),
     "lanes": {"math"},
     "node": {"errors", "math"},
+    "geometry": {"errors", "math"},
     "program": {"errors", "math", "node"},
     "graph": {"errors", "math", "node"},
     "store": {"errors", "math", "lanes"},
@@ -96,9 +97,10 @@ def test_rules_have_no_circle() -> None:
 
 
 def test_nodes_import_only_their_language() -> None:
-    """A node's file needs nothing of the engine but `graphfx.node` and `graphfx.math`."""
+    """A node's file needs nothing of the engine but `graphfx.node`, `graphfx.math` and, for meshes, `graphfx.geometry`."""
+    theirs = ("graphfx.node", "graphfx.math", "graphfx.geometry", "__future__")
     wrong = [f"{file.relative_to(ROOT)}:{line} imports {module}" for file in python_files("nodes")
-             for module, line in imported(file) if module not in ("graphfx.node", "graphfx.math", "__future__")]
+             for module, line in imported(file) if module not in theirs]
     assert wrong == []
 
 

@@ -17,12 +17,12 @@ from numba import types
 from numba.extending import overload
 
 from graphfx.lanes.types import Real, Vec3Type
-from graphfx.math import primitives, vec3
+from graphfx.math import primitives, tables, vec3
 from graphfx.math.primitives import by_precision
 
 _OPTIONS = {"forceinline": True, "error_model": "numpy"}
 _BUILT_IN = {
-    function for module in (primitives,) for function in vars(module).values()
+    function for module in (primitives, tables) for function in vars(module).values()
     if isinstance(function, FunctionType) and function is not by_precision
 }
 _sources: dict[Any, frozenset[Path]] = {}

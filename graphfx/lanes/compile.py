@@ -9,7 +9,7 @@ from typing import Any
 
 import numba
 
-from graphfx.lanes import arithmetic, memory, vectors  # noqa: F401  (they teach Numba the lane types)
+from graphfx.lanes import arithmetic, memory, tables, vectors  # noqa: F401  (they teach Numba the lane types)
 from graphfx.lanes.bodies import register
 from graphfx.lanes.cache import CheckedCache, code_digest, engine_digest
 

@@ -45,7 +45,12 @@ class Real(types.Type):
     @property
     def llvm(self) -> ir.Type:
         """Return the LLVM type."""
-        return _vector(ir.FloatType() if self.single else ir.DoubleType(), self.width)
+        return _vector(self.dtype_llvm, self.width)
+
+    @property
+    def dtype_llvm(self) -> ir.Type:
+        """Return the LLVM type of one lane."""
+        return ir.FloatType() if self.single else ir.DoubleType()
 
     @property
     def llvm_integer(self) -> ir.Type:

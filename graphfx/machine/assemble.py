@@ -40,11 +40,12 @@ class Assembled:
         return self.places[id(operand)]
 
     def set_uniform(self, scratch: np.ndarray, masks: np.ndarray, uniform: Uniform, value: Any) -> None:
-        """Splat a value: a number, three for a vec3, a truth for a mask, an integer for a word."""
+        """Splat a value: a number, three for a vec3, a truth for a mask, an integer for a word, an address for a mesh."""
         place = self.place(uniform)
         if uniform.type == "bool":
             masks[place >> 4 : (place + BLOCK) >> 4] = 0xFFFF if value else 0
-        elif uniform.type in ("word", "id"):
+        elif uniform.type in ("word", "id", "mesh"):
+            value = value.address(self.precision) if uniform.type == "mesh" else value
             words = scratch.view(np.uint32 if self.precision == 32 else np.uint64)
             for k in range(COMPONENTS[uniform.type]):
                 words[place + k * self.lanes : place + (k + 1) * self.lanes] = int(value) >> (32 * k) & 0xFFFFFFFF

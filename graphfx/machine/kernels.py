@@ -23,6 +23,7 @@ from numba.core.ccallback import CFunc
 from graphfx.lanes import any_lane, operands, register
 from graphfx.lanes.cache import CheckedCache, digest_of, engine_digest
 from graphfx.lanes.memory import FLOAT_LANES
+from graphfx.lanes.tables import read_mesh
 from graphfx.lanes.types import Real
 from graphfx.machine.inline import inline_body
 from graphfx.machine.mistakes import located
@@ -105,7 +106,7 @@ def kernel_source(function: Function, width: int) -> tuple[str, dict[str, Any]]:
 
 def _memory(real: Real) -> dict[str, Any]:
     names = [name for name in vars(operands) if name.startswith(("read_", "write_"))]
-    own = {"R": real, "any_lane": any_lane, "uniform_of": operands.uniform_of}
+    own = {"R": real, "any_lane": any_lane, "uniform_of": operands.uniform_of, "read_mesh": read_mesh}
     return {name: getattr(operands, name) for name in names} | own
 
 

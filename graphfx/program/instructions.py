@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-COMPONENTS = {"float": 1, "vec3": 3, "bool": 0, "id": 2, "draw": 4, "word": 1}
-"""Columns that a value of each type takes; a bool takes none: it is a mask."""
+COMPONENTS = {"float": 1, "vec3": 3, "bool": 0, "id": 2, "draw": 4, "word": 1, "mesh": 2}
+"""Columns that a value of each type takes; a bool takes none: it is a mask. A mesh is only ever one for all."""
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,8 @@ def lane_value(value: Any, type_: str, kind: Any) -> Any:
         return Vec3(*(kind(part) for part in parts))
     if type_ in ("id", "word"):
         return int(value)
+    if type_ == "mesh":
+        return value.of(kind)
     if type_ == "draw":
         return tuple(kind(part) for part in value)
     return kind(value)

@@ -1,0 +1,20 @@
+"""Meshes: shapes, files, letters, their tables for functions of particles, and the search in them."""
+
+from graphfx.geometry.access import (
+    choose_face,
+    choose_vertex,
+    face_normal,
+    face_point,
+    upmost_tangent,
+    vertex,
+    vertex_in_turn,
+    vertex_normal,
+)
+from graphfx.geometry.mesh import Mesh
+from graphfx.geometry.search import first_meeting, is_inside, nearest
+from graphfx.geometry.shapes import box, cone, cylinder, grid, points, sphere, torus
+
+__all__ = [
+    "Mesh", "box", "choose_face", "choose_vertex", "cone", "cylinder", "face_normal", "face_point", "first_meeting", "grid",
+    "is_inside", "nearest", "points", "sphere", "torus", "upmost_tangent", "vertex", "vertex_in_turn", "vertex_normal",
+]

@@ -1,0 +1,91 @@
+"""What a function of particles can ask of a mesh: the same text in plain Python and on lanes.
+
+Numbers of vertices and faces are lane values that hold whole numbers.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphfx.geometry.tables import CHANCES, FACES, VERTICES
+from graphfx.math import Vec3, floor, fma, minimum, sqrt, where
+from graphfx.math.tables import gather, rows, turn
+
+HORIZONTAL = 1e-6
+"""A face whose normal is off the vertical by less than this [rad] counts as horizontal."""
+
+
+def vertex(mesh: Any, number: Any) -> Any:
+    """The position of a vertex [m]."""
+    return Vec3(gather(mesh, VERTICES, number, 0), gather(mesh, VERTICES, number, 1), gather(mesh, VERTICES, number, 2))
+
+
+def vertex_normal(mesh: Any, number: Any) -> Any:
+    """The unit normal at a vertex."""
+    return Vec3(gather(mesh, VERTICES, number, 3), gather(mesh, VERTICES, number, 4), gather(mesh, VERTICES, number, 5))
+
+
+def vertex_count(mesh: Any) -> Any:
+    """How many vertices there are."""
+    return rows(mesh, VERTICES)
+
+
+def vertex_in_turn(mesh: Any, identity: Any) -> Any:
+    """id mod number of vertices: the vertex that falls to a particle when all take them in turn."""
+    return turn(identity, mesh, VERTICES)
+
+
+def face_normal(mesh: Any, number: Any) -> Any:
+    """The unit normal of a face."""
+    return Vec3(gather(mesh, FACES, number, 9), gather(mesh, FACES, number, 10), gather(mesh, FACES, number, 11))
+
+
+def face_point(mesh: Any, number: Any, u: Any, v: Any) -> Any:
+    """A point of a face, uniform for uniform u and v.
+
+        A + (B - A) u + (C - A) v, and u, v -> 1 - u, 1 - v where u + v > 1
+
+    The half of the unit square beyond its diagonal is turned onto the half within.
+    """
+    a = Vec3(gather(mesh, FACES, number, 0), gather(mesh, FACES, number, 1), gather(mesh, FACES, number, 2))
+    b = Vec3(gather(mesh, FACES, number, 3), gather(mesh, FACES, number, 4), gather(mesh, FACES, number, 5))
+    c = Vec3(gather(mesh, FACES, number, 6), gather(mesh, FACES, number, 7), gather(mesh, FACES, number, 8))
+    beyond = u + v > 1.0
+    return a + (b - a) * where(beyond, 1.0 - u, u) + (c - a) * where(beyond, 1.0 - v, v)
+
+
+def split_even(count: Any, u: Any, v: Any) -> Any:
+    """(n, f): a whole number 0 <= n < count, each as likely, and f uniform in [0, 1), from uniform u and v.
+
+        n + f = count (u + v 2^-24)
+
+    Of u only 24 bits count, so that both precisions agree; v gives those below. The product is held in two parts.
+    """
+    top = floor(u * 16777216.0) * 5.9604644775390625e-8
+    product = count * top
+    whole = floor(product)
+    rest = (product - whole) + fma(count, top, -product) + count * (v * 5.9604644775390625e-8)
+    carry = floor(rest)
+    return minimum(whole + carry, count - 1.0), rest - carry
+
+
+def choose_vertex(mesh: Any, u: Any, v: Any) -> Any:
+    """The number of a vertex, each as likely, for uniform u and v."""
+    return split_even(rows(mesh, VERTICES), u, v)[0]
+
+
+def choose_face(mesh: Any, u: Any, v: Any) -> Any:
+    """The number of a face, as likely as its area, for uniform u and v."""
+    place, rest = split_even(rows(mesh, CHANCES), u, v)
+    return where(rest < gather(mesh, CHANCES, place, 0), place, gather(mesh, CHANCES, place, 1))
+
+
+def upmost_tangent(normal: Any) -> Any:
+    """The unit tangent of a surface that points most nearly up (+y); +x on a horizontal one. [Sims 1990, 5.3]
+
+        T = (up - N (N . up)) / |up - N (N . up)|
+    """
+    slope = sqrt(normal.x * normal.x + normal.z * normal.z)
+    flat = slope < HORIZONTAL
+    run = where(flat, 0.0, normal.y / slope)
+    return Vec3(where(flat, 1.0, -normal.x * run), where(flat, 0.0, slope), where(flat, 0.0, -normal.z * run))
