@@ -10,11 +10,14 @@ from graphfx.geometry.access import (
     vertex_in_turn,
     vertex_normal,
 )
+from graphfx.geometry.files import load_mesh
+from graphfx.geometry.lettering import letters
 from graphfx.geometry.mesh import Mesh
 from graphfx.geometry.search import first_meeting, is_inside, nearest
 from graphfx.geometry.shapes import box, cone, cylinder, grid, points, sphere, torus
 
 __all__ = [
-    "Mesh", "box", "choose_face", "choose_vertex", "cone", "cylinder", "face_normal", "face_point", "first_meeting", "grid",
-    "is_inside", "nearest", "points", "sphere", "torus", "upmost_tangent", "vertex", "vertex_in_turn", "vertex_normal",
+    "Mesh", "box", "choose_face", "choose_vertex", "cone", "cylinder", "face_normal", "face_point", "first_meeting",
+    "grid", "is_inside", "letters", "load_mesh", "nearest", "points", "sphere", "torus", "upmost_tangent", "vertex",
+    "vertex_in_turn", "vertex_normal",
 ]

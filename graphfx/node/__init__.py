@@ -1,6 +1,6 @@
 """Declare node types and find them."""
 
-from graphfx.node.declare import language, operator, param, selector, value
+from graphfx.node.declare import geometry, language, operator, param, selector, value
 from graphfx.node.library import Library, bundled_root, library_roots
 from graphfx.node.types import (
     ATTRIBUTES,
@@ -17,5 +17,6 @@ from graphfx.node.types import (
 
 __all__ = [
     "ATTRIBUTES", "COMMON_KEYS", "DERIVED_ATTRIBUTES", "INFINITY", "NUMERIC_TYPES", "OTHER_NAMES", "RESERVED", "Attribute",
-    "Library", "NodeType", "Parameter", "bundled_root", "language", "library_roots", "operator", "param", "selector", "value",
+    "Library", "NodeType", "Parameter", "bundled_root", "geometry", "language", "library_roots", "operator", "param", "selector",
+    "value",
 ]

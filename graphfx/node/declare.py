@@ -17,12 +17,13 @@ from graphfx.node.types import (
     NUMERIC_TYPES,
     OTHER_TYPES,
     RESERVED,
+    WAY,
     NodeType,
     Parameter,
 )
 
 _ANNOTATIONS = {float: "float", int: "int", bool: "bool", str: "string", Vec3: "vec3"}
-_BY_TEXT = {"float": "float", "int": "int", "bool": "bool", "str": "string", "Vec3": "vec3"}
+_BY_TEXT = {"float": "float", "int": "int", "bool": "bool", "str": "string", "Vec3": "vec3", "Mesh": "mesh"}
 
 
 RESPONSE = (
@@ -32,6 +33,13 @@ RESPONSE = (
     Parameter("rest_speed", "float", 0.01, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest."),
 )
 """Parameters that every surface has besides its function's: how a particle answers to the contact."""
+
+TRANSFORM = (
+    Parameter("translate", "vec3", (0.0, 0.0, 0.0), "m", None, None, (), "Moves the mesh, after it was scaled and rotated."),
+    Parameter("rotate", "vec3", (0.0, 0.0, 0.0), "degrees", None, None, (), "Turns it about the x, then y, then z axis."),
+    Parameter("scale", "vec3", (1.0, 1.0, 1.0), "", None, None, (), "Stretches it along its own x, y and z axes."),
+)
+"""Parameters that every geometry has besides its function's: where it stands. They may change with time."""
 
 
 @dataclass(frozen=True)
@@ -95,6 +103,8 @@ def _parameter(name: str, argument: inspect.Parameter, fail: Callable[[str], Nod
 def _type_name(annotation: Any) -> str:
     if isinstance(annotation, str):
         return _BY_TEXT.get(annotation, annotation)
+    if getattr(annotation, "__name__", "") == "Mesh":
+        return "mesh"
     return _ANNOTATIONS.get(annotation, str(annotation))
 
 
@@ -109,8 +119,18 @@ def _result_types(annotation: Any) -> tuple[str, ...]:
     return (_type_name(annotation),)
 
 
+def _check_results(names: tuple[str, ...], types: tuple[str, ...], fail: Callable[[str], NodeError]) -> None:
+    """Raise `NodeError` unless each of several results has a name."""
+    if len(names) != len(types):
+        raise fail(f"it gives {len(types)} results, so @value(results=...) needs a name for each, and has {len(names)}")
+    for name in names:
+        if not name.isidentifier() or name in ("x", "y", "z") or names.count(name) > 1:
+            raise fail(f"a result cannot be called '{name}'; names are words, each once, and not x, y or z")
+
+
 def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any = (), language: bool = False,
-            neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None, branches: bool = False) -> NodeType:
+            neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None, branches: bool = False,
+            results: tuple[str, ...] = ()) -> NodeType:
     """Read a function's signature into a `NodeType`; raise `NodeError` at the function's own line."""
     source = Path(inspect.getsourcefile(function) or "")
     location = Location(str(source), function.__code__.co_firstlineno)
@@ -129,7 +149,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     for argument in signature.parameters.values():
         if isinstance(argument.default, ParameterMark):
             parameters[argument.name] = _parameter(argument.name, argument, fail, language)
-        elif argument.name in RESERVED:
+        elif argument.name in RESERVED or (role == "surface" and argument.name in WAY):
             reserved.append(argument.name)
         elif argument.name in ATTRIBUTES or argument.name in DERIVED_ATTRIBUTES:
             reads.append(argument.name)
@@ -145,10 +165,14 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     result = _result_types(signature.return_annotation)
     if not language and not result:
         raise fail("the function needs a return annotation: float, bool, Vec3 or tuple[...] of them")
+    if role == "value" and (len(result) > 1 or results):
+        _check_results(results, result, fail)
     if role == "surface":
         parameters |= {parameter.name: parameter for parameter in RESPONSE}
+    elif role == "geometry":
+        parameters |= {parameter.name: parameter for parameter in TRANSFORM}
     return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters,
-                    result, writes, neutral, exact_if, branches, language, doc, location, linear)
+                    result, writes, neutral, exact_if, branches, language, doc, location, linear, tuple(results))
 
 
 def _decorator(kind: str, role: str, **fixed: Any) -> Callable[..., Any]:
@@ -183,7 +207,9 @@ class operator:
     velocity = staticmethod(_decorator("operators", "velocity", writes="position"))
     """Applied velocity at (position, time)."""
     surface = staticmethod(_decorator("operators", "surface"))
-    """(signed distance, unit normal) of a surface at a position."""
+    """(signed distance, unit normal) of a surface at a position. One that has no two sides to measure from takes `start`
+    and `end` instead, a particle's way in a step, and gives (met, a point, a unit normal to the side of the start): the
+    plane at which it stops."""
     noise = staticmethod(_decorator("operators", "noise"))
     """An acceleration that holds for a time cell of 1/24 s; an applied velocity, where it writes the position."""
     pairs = staticmethod(_decorator("operators", "pairs", writes="velocity"))
@@ -191,7 +217,10 @@ class operator:
 
 
 value = _decorator("values", "value")
-"""A value that a parameter or attribute may be given; `draw` hands it four random numbers."""
+"""A value that a parameter or attribute may be given; `draw` hands it four random numbers. With several results,
+`results=("point", "normal")` names them: the first is the value itself."""
+geometry = _decorator("geometry", "geometry")
+"""A mesh, made from its parameters before the cook."""
 selector = _decorator("selectors", "selector")
 """True for the particles that pass."""
 

@@ -9,6 +9,7 @@ ROLES = {
     "acceleration": "integrates it together with all other accelerations",
     "velocity": "integrates it as an applied velocity, besides the particle's own",
     "surface": "finds the instant of each contact, and answers it there",
+    "geometry": "makes the mesh before the cook, and moves it where it stands at each step",
     "noise": "draws it for each particle and each 1/24 s, in which it holds, so that steps and frames change nothing",
     "pairs": "sums it over the neighbours that are near",
     "value": "finds it for the parameter or attribute that it is given to",

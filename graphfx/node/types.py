@@ -17,6 +17,8 @@ OTHER_TYPES = ("string", "path", "interval", "list", "selector", "surface", "mes
 
 RESERVED = ("dt", "time", "frame", "id", "draw")
 """Arguments that the engine gives: step [s], time [s], frame number, particle id, and four uniform random numbers."""
+WAY = ("start", "end")
+"""Arguments that it gives to surfaces besides: where a particle is at the start and at the end of a step [m]."""
 
 COMMON_KEYS = ("type", "id", "doc", "from", "ops", "when", "only", "during", "enabled", "seed_key")
 """Keys that any node of a graph may carry; no parameter may have one of these names."""
@@ -122,6 +124,8 @@ class NodeType:
     doc: str = ""
     location: Location = field(default=Location())
     linear: Callable[..., Any] | None = None
+    results: tuple[str, ...] = ()
+    """The names of a value's results, where it has several: `spot.normal`."""
 
     def argument_type(self, name: str) -> str:
         """Return the lane type of one argument: 'float', 'vec3', 'bool', 'draw' or 'id'."""
@@ -129,6 +133,8 @@ class NodeType:
             return self.parameters[name].type
         if name in ("draw", "id"):
             return name
+        if name in WAY and name in self.reserved:
+            return "vec3"
         if name in self.reserved:
             return "float"
         return (ATTRIBUTES | DERIVED_ATTRIBUTES)[name].type
