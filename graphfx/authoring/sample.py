@@ -80,6 +80,8 @@ class Sample:
 
     def _one(self, parameter: Parameter) -> Any:
         """Return what a required parameter is given; a node that it names is added to the graph."""
+        if parameter.type == "path":
+            return self._file() or parameter.name
         if parameter.type not in _REFERENCES:
             return example(parameter)
         wanted = parameter.choices or [name for name in self.library if self.library.kind_of(name) == "geometry"
@@ -89,6 +91,14 @@ class Sample:
         if "shape" not in self.nodes:
             self.nodes["shape"] = {"type": wanted[0]}
         return "shape"
+
+    def _file(self) -> str:
+        """Return a file of a library, other than graphs and pictures, as a graph would name it."""
+        for root in self.library.roots:
+            for file in sorted((root / "graphs").rglob("*.*")):
+                if file.suffix not in (".json", ".png", ".md"):
+                    return file.relative_to(root / "graphs").as_posix()
+        return ""
 
 
 def sample(node_type: NodeType, library: Library) -> dict[str, Any]:

@@ -1,0 +1,106 @@
+"""What an operator claims by its role, checked in plain Python in float64."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+
+import graphfx.math
+from graphfx.contract.both_ways import plainly
+from graphfx.contract.inputs import Inputs, Row, pairs, shown
+from graphfx.contract.subject import Subject
+from graphfx.math import Vec3
+
+COUNT = 40
+CLOSE = 1e-7
+"""Largest defect, relative to the size of what is compared."""
+STATES = ("position", "velocity")
+NUDGE = 1e-4
+"""Step along a normal [m]."""
+
+
+def is_linear(subject: Subject) -> None:
+    """A linear operator's rate of change is affine in position and velocity: f(a + b) + f(0) = f(a) + f(b)."""
+    node_type = subject.node_type
+    state = [name for name in node_type.reads if name in STATES]
+    for one, other in pairs(_rows(subject)):
+        other = one | {name: other[name] for name in state}
+        total = one | {name: _sum(one[name], other[name]) for name in state}
+        zero = one | dict.fromkeys(state, (0.0, 0.0, 0.0))
+        parts = [plainly(node_type, row)[0] for row in (total, zero, one, other)]
+        _close(parts[0] + parts[1], parts[2] + parts[3], f"it is not linear in {' and '.join(state)}", one)
+
+
+def composes(subject: Subject) -> None:
+    """A flow is exact: two half steps are one whole step, and a step of no time changes nothing."""
+    node_type = subject.node_type
+    for row in _rows(subject):
+        whole = plainly(node_type, row)
+        half = row["dt"] / 2
+        between = dict(zip(node_type.writes, map(tuple, plainly(node_type, row, dt=half)), strict=True))
+        twice = plainly(node_type, row, dt=half, **between)
+        still = plainly(node_type, row, dt=0.0)
+        for name, one, two, none in zip(node_type.writes, whole, twice, still, strict=True):
+            _close(one, two, f"two half steps do not give the {name} of a whole one", row)
+            _close(none, np.asarray(row[name], float), f"a step of no time changes the {name}", row)
+
+
+def has_a_surface(subject: Subject) -> None:
+    """A surface's normal has length 1 and points to greater distance, and no distance changes faster than the particle moves."""
+    node_type = subject.node_type
+    for one, other in pairs(_rows(subject)):
+        other = one | {"position": other["position"]}
+        (distance,), normal = plainly(node_type, one)
+        size = float(np.linalg.norm(normal))
+        assert abs(size - 1) < 1e-6, f"its normal has length {size:g} with {shown(one)}"
+        moved = tuple(np.asarray(one["position"]) + NUDGE * normal)
+        (beyond,), _ = plainly(node_type, one, position=moved)
+        assert beyond > distance, f"its normal does not point to greater distance with {shown(one)}"
+        (elsewhere,), _ = plainly(node_type, other)
+        way = np.linalg.norm(np.subtract(one["position"], other["position"]))
+        slow = abs(distance - elsewhere) <= way * (1 + CLOSE)
+        assert slow, f"its distance changes faster than the particle moves: {shown(one)}"
+
+
+def does_nothing_when_neutral(subject: Subject) -> None:
+    """Where its `neutral` condition holds, an operator changes nothing."""
+    node_type = subject.node_type
+    named = [name for name in node_type.parameters if re.search(rf"\b{name}\b", node_type.neutral)]
+    for row in _rows(subject):
+        still = row | {name: (0.0, 0.0, 0.0) if np.size(row[name]) == 3 else 0.0 for name in named}
+        names = {name: Vec3(*still[name]) if np.size(still[name]) == 3 else still[name] for name in named}
+        if not eval(node_type.neutral, vars(graphfx.math) | {"infinity": float("inf")} | names):
+            return  # neutral at other values than zeros
+        before = [np.asarray(still[name], float) if node_type.role in ("flow", "assign") else 0.0 for name in node_type.writes]
+        for result, kept in zip(plainly(node_type, still), before, strict=True):
+            complaint = f"it says that it is neutral when {node_type.neutral}, and is not"
+            _close(result, kept + np.zeros_like(result), complaint, still)
+
+
+def _rows(subject: Subject) -> list[Row]:
+    return Inputs(subject.node_type, seed=7).ordinary_rows(COUNT)
+
+
+def _sum(one: Any, other: Any) -> tuple[float, ...]:
+    return tuple(np.add(one, other))
+
+
+def _close(one: np.ndarray, other: np.ndarray, complaint: str, row: Row) -> None:
+    size = 1 + np.abs(other).max(initial=0.0)
+    assert np.all(np.abs(one - other) <= CLOSE * size), f"{complaint}: {one} against {other} with {shown(row)}"
+
+
+BY_ROLE = {"linear": is_linear, "flow": composes, "surface": has_a_surface}
+"""The claim of each role."""
+
+
+def applies(subject: Subject, claim: Any) -> bool:
+    """Return whether a claim can be put to the test: its function is handed numbers alone, and a flow reads no clock."""
+    node_type = subject.node_type
+    if claim is does_nothing_when_neutral:
+        return subject.is_closed and bool(node_type.neutral) and node_type.role in ("linear", "flow", "acceleration", "assign")
+    if not subject.is_closed or BY_ROLE.get(node_type.role) is not claim:
+        return False
+    return claim is not composes or not {"time", "frame"} & {*node_type.reserved}

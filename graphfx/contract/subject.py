@@ -1,0 +1,51 @@
+"""A node type under test, with what several truths ask of it computed once."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+
+from graphfx.contract.both_ways import BothWays, Columns
+from graphfx.contract.inputs import Inputs, Row
+from graphfx.node import NUMERIC_TYPES, Library, NodeType
+
+_ON_LANES = (*NUMERIC_TYPES, "draw", "id")
+
+
+class Subject:
+    """A node type of a library."""
+
+    def __init__(self, node_type: NodeType, library: Library):
+        self.node_type, self.library = node_type, library
+        self._results: dict[int, Columns] = {}
+
+    @property
+    def is_function(self) -> bool:
+        """Whether it is a function for particles, and not a part of the language or a thing of the plan."""
+        kinds = map(self.node_type.argument_type, self.node_type.arguments)
+        return not self.node_type.language and self.node_type.kind != "geometry" and all(kind in _ON_LANES for kind in kinds)
+
+    @property
+    def is_closed(self) -> bool:
+        """Whether plain numbers are all that its function is handed: no random ones, and no thing of the plan."""
+        kinds = map(self.node_type.argument_type, self.node_type.arguments)
+        return self.is_function and all(kind in NUMERIC_TYPES for kind in kinds)
+
+    @cached_property
+    def both_ways(self) -> BothWays:
+        """The function as a program."""
+        return BothWays(self.node_type)
+
+    @cached_property
+    def rows(self) -> list[Row]:
+        """Ordinary and extreme particles and parameters."""
+        return Inputs(self.node_type).rows()
+
+    def on_machine(self, precision: int, order: np.ndarray | None = None) -> Columns:
+        """Return the machine's results for the rows; as they stand, they are computed once."""
+        if order is not None:
+            return self.both_ways.run(self.rows, precision, on_machine=True, order=order)
+        if precision not in self._results:
+            self._results[precision] = self.both_ways.run(self.rows, precision, on_machine=True)
+        return self._results[precision]

@@ -1,0 +1,79 @@
+"""What must be true of every node, each as a function that raises AssertionError with the case that breaks it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+
+import numpy as np
+
+from graphfx.contract.both_ways import finite, same_bits
+from graphfx.contract.inputs import shown
+from graphfx.contract.subject import Subject
+from graphfx.node import NUMERIC_TYPES, Parameter
+
+Truth = Callable[[Subject], None]
+PRECISIONS = (32, 64)
+
+
+def is_documented(subject: Subject) -> None:
+    """The file opens with a summary that ends a sentence, and the function says what it returns."""
+    node_type = subject.node_type
+    summary = node_type.doc.strip().splitlines()[0]
+    assert summary[:1].isupper(), f"the first line of its file should begin with a capital: {summary!r}"
+    assert re.search(r"[.:\]]$", summary), f"the first line of its file should be a sentence with a full stop: {summary!r}"
+    own = (node_type.function.__doc__ or "").strip()
+    assert own.endswith("."), "the function itself needs a docstring, one sentence on what it returns"
+    for parameter in node_type.parameters.values():
+        sentence = not parameter.doc[:1].islower() and parameter.doc.endswith(".")
+        assert sentence, f"the doc of '{parameter.name}' should be a sentence"
+
+
+def has_defaults_in_range(subject: Subject) -> None:
+    """Every parameter that is not required has a default of its type, within its range."""
+    node_type = subject.node_type
+    for parameter in node_type.parameters.values():
+        if not parameter.required and not (node_type.language and parameter.default is None):
+            problem = _wrong_default(parameter)
+            assert not problem, f"the default of '{parameter.name}' {problem}"
+
+
+def _wrong_default(parameter: Parameter) -> str:
+    default = parameter.default
+    if parameter.choices and parameter.type == "string":
+        return "" if default in parameter.choices else f"is none of {parameter.choices}"
+    if parameter.type not in NUMERIC_TYPES or parameter.type == "bool":
+        return ""
+    low = -np.inf if parameter.min is None else parameter.min
+    high = np.inf if parameter.max is None else parameter.max
+    if np.size(default) != NUMERIC_TYPES[parameter.type]:
+        return f"has {np.size(default)} numbers"
+    if not np.all((np.asarray(default) >= low) & (np.asarray(default) <= high)):
+        return f"lies outside {low:g} to {high:g}"
+    if parameter.type == "direction" and abs(np.linalg.norm(default) - 1) > 1e-6:
+        return "has not length 1"
+    return ""
+
+
+def machine_is_plain_python(subject: Subject) -> None:
+    """The block machine gives what plain Python gives, to the last bit, in float32 and in float64."""
+    for precision in PRECISIONS:
+        plain = subject.both_ways.run(subject.rows, precision, on_machine=False)
+        wrong = np.flatnonzero(~same_bits(subject.on_machine(precision), plain))
+        assert not wrong.size, (f"{wrong.size} of {len(subject.rows)} rows differ from plain Python in float{precision}, "
+                                f"for instance with {shown(subject.rows[wrong[0]])}")
+
+
+def stays_finite(subject: Subject) -> None:
+    """Its results are finite for whatever its declaration allows."""
+    for precision in PRECISIONS:
+        wrong = np.flatnonzero(~finite(subject.on_machine(precision)))
+        assert not wrong.size, (f"{wrong.size} of {len(subject.rows)} rows are not finite in float{precision}, for instance "
+                                f"with {shown(subject.rows[wrong[0]])}; bound the parameter, or the result by where(...)")
+
+
+def does_not_depend_on_order(subject: Subject) -> None:
+    """A particle's result is the same in whatever order particles run."""
+    order = np.random.default_rng(1).permutation(len(subject.rows))
+    same = same_bits(subject.on_machine(32), subject.on_machine(32, order))
+    assert same.all(), f"{(~same).sum()} of {len(subject.rows)} rows differ when the particles are permuted"
