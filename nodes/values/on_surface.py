@@ -1,0 +1,22 @@
+"""Evenly on the surface of a mesh: every face as likely as its area.
+
+    A + (B - A) u + (C - A) v,  u + v <= 1
+
+With the point come the normal of the face and its up-most tangent, the tangent that points most nearly up; on a
+horizontal face that is +x. [Sims 1990, 3.1 and 5.3]
+"""
+
+from graphfx.geometry import Mesh, choose_face, face_normal, face_point, upmost_tangent
+from graphfx.math import Vec3
+from graphfx.node import param, value
+
+
+@value(results=("point", "normal", "tangent"))
+def on_surface(
+    draw: tuple,
+    mesh: Mesh = param(required=True, doc="The geometry node whose mesh it is."),
+) -> tuple[Vec3, Vec3, Vec3]:
+    """Return a point of the surface, with the normal and the up-most tangent there."""
+    face = choose_face(mesh, draw[0], draw[1])
+    normal = face_normal(mesh, face)
+    return face_point(mesh, face, draw[2], draw[3]), normal, upmost_tangent(normal)
