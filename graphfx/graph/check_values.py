@@ -148,7 +148,7 @@ class ValueReader:
             self.checking.mismatch(inner, f"{path}.expr", "an expression should be text in quotes")
             return None
         text = inner.value
-        tree, kind, mistakes = parse(text, scope.resolve, self.checking.limits)
+        tree, kind, mistakes = parse(text, scope.resolve, self.checking.limits, scope.members)
         for mistake in mistakes:
             notes = (text, " " * mistake.column + "^") if text.isprintable() and len(text) <= 100 else ()
             self.complain(inner.text_location(mistake.column), f"{path}.expr", mistake.message, *notes, *mistake.notes)

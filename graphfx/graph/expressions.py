@@ -13,30 +13,20 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NoReturn
 
 from graphfx.errors import suggestion
 from graphfx.graph.functions import ANY_NUMBER, BINARY, CALLED, CONSTANTS, FUNCTIONS, in_words
 from graphfx.graph.items import shown
+from graphfx.graph.lexer import FOREIGN, KEYWORDS, QUALIFIERS, TOKEN
 from graphfx.graph.limits import Limits
 from graphfx.graph.values import Call, measure
 
-_TOKEN = re.compile(r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)|(?P<name>[A-Za-z_]\w*)"
-                    r"|(?P<sign>\*\*|<=|>=|==|!=|&&|\|\||//|[-+*/%<>().,=!^?:\[\]]))")
 _COMPARISONS = ("<", "<=", ">", ">=", "==", "!=")
-KEYWORDS = ("and", "or", "not", "if", "else")
-_FOREIGN = {
-    "&&": "write 'and'", "||": "write 'or'", "!": "write 'not'", "^": "a power is written a ** b", "=": "equality is written ==",
-    "?": "a choice is written 'a if condition else b'", ":": "a choice is written 'a if condition else b'",
-    "//": "write floor(a / b)", "[": "a vector is written vec(x, y, z)",
-}
-"""Signs of other languages, and what to write instead."""
 _MOST_BRACKETS = 30
 """Each bracket is a dozen calls of the parser, and Python allows about a thousand."""
-QUALIFIERS = ("param", "birth", "parent", "hit")
 
 
 @dataclass(frozen=True)
@@ -54,11 +44,14 @@ class _Stop(Exception):
 
 Resolve = Callable[[str], "tuple[Any, str] | str"]
 """Finds what a name means: its tree and type, or the message that says why it means nothing."""
+Members = Callable[[str], "dict[str, tuple[Any, str]]"]
+"""Finds the results of a named value that has several, by name."""
 
 
-def parse(text: str, resolve: Resolve, limits: Limits | None = None) -> tuple[Any, str, list[Mistake]]:
+def parse(text: str, resolve: Resolve, limits: Limits | None = None,
+          members: Members = lambda name: {}) -> tuple[Any, str, list[Mistake]]:
     """Return an expression's tree, its type ('float', 'vec3', 'bool', or '' where mistakes hide it), and all mistakes."""
-    parser = _Parser(text, resolve, limits or Limits())
+    parser = _Parser(text, resolve, members, limits or Limits())
     try:
         tree, kind = parser.whole()
     except _Stop:
@@ -66,17 +59,9 @@ def parse(text: str, resolve: Resolve, limits: Limits | None = None) -> tuple[An
     return tree, kind, parser.mistakes
 
 
-def names_in(text: str) -> Iterator[str]:
-    """Yield the names that an expression reads and that stand by themselves: no functions, nothing before or after a dot."""
-    tokens = [token.group(token.lastgroup or 0) for token in _TOKEN.finditer(text)]
-    for before, word, after in zip(["", *tokens], tokens, [*tokens[1:], ""], strict=False):
-        if before != "." and after != "(" and (after != "." or word not in QUALIFIERS) and word.isidentifier():
-            yield word
-
-
 class _Parser:
-    def __init__(self, text: str, resolve: Resolve, limits: Limits):
-        self.text, self.resolve, self.limits = text, resolve, limits
+    def __init__(self, text: str, resolve: Resolve, members: Members, limits: Limits):
+        self.text, self.resolve, self.members, self.limits = text, resolve, members, limits
         self.mistakes: list[Mistake] = []
         self.depth = 0
         self.tokens: list[tuple[str, str, int]] = []
@@ -97,14 +82,14 @@ class _Parser:
         result = self.expression()
         kind, word, column = self.peek()
         if kind:
-            meant = _FOREIGN.get(word, "an operator or the end of the expression should")
+            meant = FOREIGN.get(word, "an operator or the end of the expression should")
             self.stop(f"'{word}' cannot stand here; {meant}", column)
         return result
 
     def scan(self) -> None:
         at = 0
         while self.text[at:].strip():
-            token = _TOKEN.match(self.text, at)
+            token = TOKEN.match(self.text, at)
             if token is None:
                 while self.text[at].isspace():
                     at += 1
@@ -237,7 +222,7 @@ class _Parser:
             return result
         if not kind:
             self.stop("the expression ends where a number, a name or '(' should stand", column)
-        meant = _FOREIGN.get(word)
+        meant = FOREIGN.get(word)
         self.stop(f"a number, a name or '(' should stand here, not '{word}'" + (f"; {meant}" if meant else ""), column)
 
     def number(self, word: str, column: int) -> float:
@@ -258,6 +243,15 @@ class _Parser:
                 if len(parts) > 1 and not (len(parts) == 2 and self.after_dot() in ("start", "end")):
                     break
             word = ".".join(parts)
+        following = self.after_dot()
+        members = self.members(word) if following and following not in ("x", "y", "z") else {}
+        if members:
+            self.next += 2
+            if following in members:
+                return members[following]
+            near = suggestion(following, members)
+            self.note(f"'{word}' has no result '{following}'." + near, column, f"its results: {', '.join(members)}")
+            return None, ""
         value = CONSTANTS.get(word)
         found = self.resolve(word) if value is None else (value, "bool" if isinstance(value, bool) else "float")
         if isinstance(found, str):

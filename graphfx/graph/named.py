@@ -7,9 +7,9 @@ from dataclasses import replace
 
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking
-from graphfx.graph.expressions import KEYWORDS, QUALIFIERS, names_in
 from graphfx.graph.functions import CALLED, CONSTANTS
 from graphfx.graph.items import Item
+from graphfx.graph.lexer import KEYWORDS, QUALIFIERS, names_in
 from graphfx.graph.names import WORD
 from graphfx.graph.scope import ALWAYS, READABLE, Scope
 from graphfx.graph.values import Value

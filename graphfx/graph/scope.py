@@ -11,7 +11,7 @@ from graphfx.errors import suggestion
 from graphfx.graph.checking import listed, nearest
 from graphfx.graph.functions import CONSTANTS
 from graphfx.graph.literals import lane
-from graphfx.graph.values import Expression, Name, Node, ParameterValue, Random, Value, children
+from graphfx.graph.values import Expression, Member, Name, Node, ParameterValue, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
 
 READABLE = ATTRIBUTES | DERIVED_ATTRIBUTES
@@ -70,6 +70,16 @@ class Scope:
         known = [*islice(self.names, _MOST_NAMES), *READABLE, *islice(self.own, _MOST_NAMES), *islice(self.clusters, _MOST_NAMES),
                  *ALWAYS, *CONSTANTS, *params]
         return f"there is no name '{word}'." + suggestion(word, known, OTHER_NAMES)
+
+    def members(self, word: str) -> dict[str, tuple[Any, str]]:
+        """Return the results of a named value that has several, by their names."""
+        value = self.named(word) if word in self.names else None
+        if not isinstance(value, Node) or value.node_type is None:
+            return {}
+        kinds = [lane(kind) for kind in value.node_type.result]
+        found = {name: (Member(kind, value.location, value.path, "", value, index), kind)
+                 for index, (name, kind) in enumerate(zip(value.node_type.results, kinds, strict=False))}
+        return found
 
     def _parameter(self, rest: str) -> tuple[Any, str] | str:
         name, _, component = rest.partition(".")

@@ -17,6 +17,7 @@ from graphfx.graph.values import (
     Call,
     Expression,
     Literal,
+    Member,
     Node,
     ParameterValue,
     Ramp,
@@ -110,6 +111,8 @@ class Substitution:
                 return self._expression(value)
             case Literal(type="selector"):
                 return self.selector(value.value)
+            case Member():
+                return replace(value, value=self._value(value.value))  # type: ignore[arg-type]
             case Ramp():
                 return replace(value, over=self._value(value.over), seed=self.seed(value.seed))  # type: ignore[arg-type]
             case Random():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
-from graphfx.graph.values import Call, Expression, Keys, Literal, Name, Node, Ramp, Random, Value, children
+from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, Node, Ramp, Random, Value, children
 from graphfx.node import NUMERIC_TYPES
 from graphfx.program import Column, Operand
 
@@ -103,6 +103,8 @@ def identity_of(tree: Any) -> Any:
             return ("ramp", tree.type, tree.positions, tuple(map(identity_of, tree.values)), identity_of(tree.over))
         case Random():
             return ("rand", tree.seed, tree.per, tree.vary, identity_of(tree.low), identity_of(tree.high))
+        case Member():
+            return ("member", tree.index, identity_of(tree.value))
         case Node():
             arguments = tuple((name, identity_of(value)) for name, value in tree.arguments)
             return ("node", id(tree.node_type), tree.seed, tree.per, arguments)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.graph.values import Call, Expression, Keys, Literal, Name, Node, Ramp, Random, Value
+from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, Node, Ramp, Random, Value
 from graphfx.math.random import key_of
 from graphfx.plan import arithmetic
 from graphfx.plan.arithmetic import function_for
@@ -57,6 +57,7 @@ class ValueWriter:
         self.precision = precision
         self.rate = rate
         self.shared: dict[int, Operand] = {}
+        self.called: dict[Any, tuple[Operand, ...]] = {}
         self._found: dict[Any, Operand] = {}
 
     def operand(self, tree: Any) -> Operand:
@@ -172,7 +173,9 @@ class _Lowering:
         if isinstance(tree, Ramp):
             return self._keys(self.writer.operand(tree.over), tree.positions, tree.values, tree)
         if isinstance(tree, Node):
-            return self._node(tree)
+            return self._results(tree)[0]
+        if isinstance(tree, Member) and tree.value is not None:
+            return self._results(tree.value)[tree.index]
         raise TypeError(f"no instruction finds {type(tree).__name__}")
 
     def _draw(self, value: Value, per: str, purpose: str = "") -> Column:
@@ -215,7 +218,14 @@ class _Lowering:
             result = self.builder.call(function, result, x, where[k], where[after], values[k], values[after], name=_name_of(tree))
         return result
 
-    def _node(self, tree: Node) -> Operand:
+    def _results(self, tree: Node) -> tuple[Operand, ...]:
+        """Return all results of a value node: it is called once, however many are used."""
+        key = identity_of(tree)
+        if key not in self.writer.called:
+            self.writer.called[key] = self._node(tree)
+        return self.writer.called[key]
+
+    def _node(self, tree: Node) -> tuple[Operand, ...]:
         node_type = tree.node_type
         assert node_type is not None
         given = dict(tree.arguments)
@@ -227,7 +237,10 @@ class _Lowering:
                 operands.append(self._draw(tree, tree.per))
             else:
                 operands.append(self.writer.operand(Name(name)))
-        return self.builder.call(node_function(node_type), *operands, name=_name_of(tree))
+        name = _name_of(tree)
+        names = " ".join(f"{name}.{result}" for result in node_type.results) or name
+        found = self.builder.call(node_function(node_type), *operands, name=names)
+        return found if isinstance(found, tuple) else (found,)
 
 
 _functions: dict[int, Function] = {}
