@@ -8,6 +8,8 @@ from graphfx.math import Vec3, dot, length, maximum, minimum, where
 from graphfx.program import Bundle
 
 MOTION = Bundle("motion")
+FAR = 2.0**60
+"""Where a spring is evaluated to find its stiffness: beyond 2^24 times any place it may pull to, and its force no overflow."""
 
 
 @MOTION.function("float", "float")
@@ -94,6 +96,12 @@ def earlier(a: Any, b: Any) -> Any:
     return minimum(a, b)
 
 
+@MOTION.function("float float", "float")
+def later(a: Any, b: Any) -> Any:
+    """The greater of two times."""
+    return maximum(a, b)
+
+
 @MOTION.function("float float float", "bool")
 def is_within(time: Any, start: Any, end: Any) -> Any:
     """start <= time < end."""
@@ -107,6 +115,12 @@ def capture(tail: Any, first: Any, last: Any, begin: Any, end: Any, opening: Any
     return where((begin <= opening) & (opening <= end), first + (last - first) * share, tail)
 
 
+@MOTION.function("vec3 vec3 float", "vec3")
+def advance_half(value: Any, rate: Any, dt: Any) -> Any:
+    """value + rate dt / 2."""
+    return value + rate * (dt * 0.5)
+
+
 # The paper's scheme, `sims`.
 
 
@@ -114,6 +128,12 @@ def capture(tail: Any, first: Any, last: Any, begin: Any, end: Any, opening: Any
 def sims_scale(velocity: Any, damping: Any, dt: Any) -> Any:
     """V' = V max(1 - d dt, 0). [Sims 1990, 3.4.1]"""
     return velocity * maximum(1.0 - damping * dt, 0.0)
+
+
+@MOTION.function("vec3 vec3 float float", "vec3")
+def sims_pull(velocity: Any, position: Any, stiffness: Any, dt: Any) -> Any:
+    """V' = V - k P dt."""
+    return velocity - position * (stiffness * dt)
 
 
 @MOTION.function("vec3 vec3 vec3 float", "vec3")
@@ -131,6 +151,12 @@ def sims_bounce(position: Any, velocity: Any, distance: Any, normal: Any, resili
     along = normal * dot(velocity, normal)
     slowed = where(length(velocity) < threshold, 0.0, friction)
     return position - normal * (distance * 2.0), (velocity - along) * (1.0 - slowed) - along * resilience
+
+
+@MOTION.function("vec3", "float")
+def stiffness_of(first: Any) -> Any:
+    """k of the matrix -k 1, from its action on 2^60 e_x."""
+    return first.x * -8.673617379884035e-19
 
 
 @MOTION.function("vec3", "float")

@@ -63,14 +63,14 @@ def turn(velocity: Any, rate: Any, dt: Any, c: Any, wave: Any, bow: Any) -> Any:
     return velocity * c + cross(rate, velocity) * (wave * dt) + rate * (dot(rate, velocity) * dt * dt * bow)
 
 
-def _complex_phi(x: Any, y: Any, real: Any, imaginary: Any, next_real: float) -> Any:
+def complex_phi(x: Any, y: Any, real: Any, imaginary: Any, next_real: float) -> Any:
     """Return (f - next_real) / z for f = real + i imaginary and z = x + i y."""
     size = x * x + y * y
     a, b = real - next_real, imaginary
     return (a * x + b * y) / size, (b * x - a * y) / size
 
 
-def _series(x: Any, y: Any, first: int, terms: int) -> Any:
+def complex_series(x: Any, y: Any, first: int, terms: int) -> Any:
     """Return the sum of z^k / (k + 1) ... (k + first), times 1 / first!... by Horner's rule, for |z| < 1."""
     real, imaginary = x * 0.0 + 1.0, y * 0.0
     for back in range(terms):
@@ -96,10 +96,10 @@ def spiral_fall(position: Any, velocity: Any, gravity: Any, damping: Any, rate: 
     s, c = sincos(y)
     grown = exp(x)
     near = x * x + y * y < 1.0
-    one_r, one_i = _complex_phi(x, y, grown * c, grown * s, 1.0)
-    two_r, two_i = _complex_phi(x, y, one_r, one_i, 1.0)
-    near_one_r, near_one_i = _series(x, y, 1, SERIES_TERMS)
-    near_two_r, near_two_i = _series(x, y, 2, SERIES_TERMS)
+    one_r, one_i = complex_phi(x, y, grown * c, grown * s, 1.0)
+    two_r, two_i = complex_phi(x, y, one_r, one_i, 1.0)
+    near_one_r, near_one_i = complex_series(x, y, 1, SERIES_TERMS)
+    near_two_r, near_two_i = complex_series(x, y, 2, SERIES_TERMS)
     one_r, one_i = where(near, near_one_r, one_r), where(near, near_one_i, one_i)
     two_r, two_i = where(near, near_two_r * 0.5, two_r), where(near, near_two_i * 0.5, two_i)
     along, fall_along = axis * dot(axis, velocity), axis * dot(axis, gravity)

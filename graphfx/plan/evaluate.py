@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from graphfx.errors import GraphError, Problem
-from graphfx.graph.values import Value
+from graphfx.graph.expressions import parse
+from graphfx.graph.flat import FlatNode
+from graphfx.graph.values import Literal, Value
 from graphfx.math import Vec3
 from graphfx.plan.rates import Rate, Scope, rate_of
 from graphfx.plan.values import StepValues, ValueWriter, find_step_values
@@ -43,3 +45,17 @@ def timed_value(tree: Any, time: float, frame: int, precision: int = 64, seed: i
     if value is None:
         value = find_step_values(steps, time, frame, precision)[id(operand)]
     return tuple(float(part) for part in value) if isinstance(value, (tuple, Vec3)) else value
+
+
+def holds(node: FlatNode, condition: str, precision: int = 64) -> bool:
+    """Return whether a condition that a node type declares holds for constants given as parameters."""
+    constants = {name: value for name, value in node.arguments.items() if isinstance(value, Literal)}
+
+    def resolve(name: str) -> tuple[Any, str] | str:
+        if name in constants:
+            value = constants[name]
+            return value, "vec3" if isinstance(value.value, tuple) else "float"
+        return f"'{name}' is not constant"
+
+    tree, _, mistakes = parse(condition, resolve)
+    return not mistakes and bool(constant_value(tree, precision))

@@ -116,7 +116,7 @@ def _add_hidden(
         found.constants["life"] = life
     if mortal or "age" in readers or "normalized_age" in readers:
         found.columns["birth"], found.reasons["birth"] = "time", "for age and death"
-    if any(draws_in(value) for node in operators for value in _values_of(node)):
+    if any("draw" in node.node_type.reserved or any(map(draws_in, _values_of(node))) for node in operators):
         found.columns["id"], found.reasons["id"] = "id", "keys the random numbers of the operators"
     if motion_blur and "position" in found.columns:
         found.columns["tail"], found.reasons["tail"] = "vec3", "where the shutter opened, for motion blur"

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import networkx
 
 from graphfx.errors import GraphError, Problem
-from graphfx.graph.expressions import parse
 from graphfx.graph.flat import FlatGraph, FlatNode
-from graphfx.graph.values import Literal
-from graphfx.plan.evaluate import constant_value
+from graphfx.plan.evaluate import holds
 
 OUTPUT_ROLES = ("image",)
 """Roles of the nodes that write something; all others live only through them."""
@@ -77,7 +74,7 @@ def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]
 def _idle(node: FlatNode, flat: FlatGraph, precision: int, prune: bool) -> str:
     if not node.enabled:
         return "not enabled"
-    if node.node_type.neutral and _is_neutral(node, precision):
+    if node.node_type.neutral and holds(node, node.node_type.neutral, precision):
         return f"it does nothing: {node.node_type.neutral}"
     return never_acts(node, flat) if prune else ""
 
@@ -89,20 +86,3 @@ def never_acts(node: FlatNode, flat: FlatGraph) -> str:
     if end > begin and start <= finish and end > start:
         return ""
     return f"acts from {start:g} to {end:g} s, outside the simulated {begin:g} to {finish:g} s"
-
-
-def _is_neutral(node: FlatNode, precision: int) -> bool:
-    """Return whether the node type's `neutral` condition holds for constants given as parameters."""
-    constants: dict[str, Any] = {}
-    for name, value in node.arguments.items():
-        if isinstance(value, Literal):
-            constants[name] = value
-
-    def resolve(name: str) -> tuple[Any, str] | str:
-        if name in constants:
-            value = constants[name]
-            return value, "vec3" if isinstance(value.value, tuple) else "float"
-        return f"'{name}' is not constant"
-
-    tree, _, mistakes = parse(node.node_type.neutral, resolve)
-    return not mistakes and bool(constant_value(tree, precision))

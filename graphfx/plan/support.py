@@ -8,9 +8,11 @@ from typing import Any
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal, Name, Node, Random, Value, children
-from graphfx.node import NUMERIC_TYPES
+from graphfx.motion.probe import carries
+from graphfx.node import NUMERIC_TYPES, NodeType
+from graphfx.plan.values import node_function
 
-MOVING_ROLES = ("linear", "flow", "acceleration", "surface")
+MOVING_ROLES = ("linear", "flow", "acceleration", "velocity", "noise", "surface")
 SCOPES = ("life", "particle", "frame", "graph")
 METHODS = ("auto", "exact", "strang", "sims")
 
@@ -62,12 +64,26 @@ def _of_type(node: FlatNode) -> Iterator[Problem]:
     declared, name = node.node_type, node.node_type.name
     if "id" in declared.reserved:
         yield Problem("functions for particles are not given 'id' in this version", declared.location, name)
-    if declared.role in ("linear", "flow", "acceleration"):
-        moved = ("position",) if declared.role == "flow" else ("position", "velocity")
-        if not (set(declared.writes) <= {"position", "velocity"} and (declared.role == "flow" or len(declared.writes) == 1)):
+    if declared.role in ("linear", "flow", "noise"):
+        flow = declared.role == "flow"
+        if not (declared.writes and set(declared.writes) <= {"position", "velocity"} and (flow or len(declared.writes) == 1)):
             yield Problem(
-                f"a {declared.role} operator that writes {', '.join(declared.writes)} is not carried out by this version; "
-                f"it may write {' or '.join(moved)}",
+                f"a {declared.role} operator that writes {', '.join(declared.writes) or 'nothing'} is not carried out by this "
+                f"version; it may write position or velocity{', or both' if flow else ''}",
+                declared.location,
+                name,
+            )
+        elif flow and len(declared.writes) == 2 and not _carries(declared):
+            yield Problem(
+                "it writes position and velocity, and so must be the whole motion of a particle on which nothing else acts, "
+                "P' = P + V dt + ... with both read; write what moves particles otherwise as two operators",
+                declared.location,
+                name,
+            )
+        elif declared.role == "noise" and {"position", "velocity"} & set(declared.reads):
+            yield Problem(
+                "a noise operator holds what it gives for 1/24 s, and so may not read the position or the velocity; write "
+                "what follows a particle as an acceleration, or as an applied velocity, of a field such as curl_noise",
                 declared.location,
                 name,
             )
@@ -78,6 +94,12 @@ def _of_type(node: FlatNode) -> Iterator[Problem]:
                 declared.location,
                 name,
             )
+
+
+def _carries(declared: NodeType) -> bool:
+    """Return whether a flow that gives position and velocity carries a particle by its velocity."""
+    function = node_function(declared)
+    return carries(declared.function, declared.arguments, function.arguments, declared.writes)
 
 
 def _of_value(tree: Any, place: Value) -> Iterator[Problem]:

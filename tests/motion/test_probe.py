@@ -23,10 +23,16 @@ def form_of(name: str) -> LinearForm | None:
 
 
 @pytest.mark.parametrize(
-    "name, form", [("gravity", (True, False, False)), ("damp", (False, True, False)), ("spiral", (False, False, True))]
+    "name, form",
+    [
+        ("gravity", (True, False, False, False)),
+        ("spiral", (False, False, True, False)),
+        ("wind", (True, True, False, False)),
+        ("spring", (True, True, False, True)),
+    ],
 )
 def test_shipped_operators(name, form):
-    """Gravity is a constant, damp a damping, spiral a turning, and nothing else."""
+    """Gravity is a constant, spiral a turning, wind a damping and a constant, a spring all but a turning."""
     assert form_of(name) == LinearForm(*form)
 
 
@@ -36,6 +42,10 @@ def all_three(velocity: Any, wind: Any, k: Any) -> Any:
 
 def spring(position: Any, k: Any) -> Any:
     return position * -k
+
+
+def pulled_aside(position: Any, k: Any) -> Any:
+    return Vec3(position.x * -k, position.y * (k * -2.0), position.z * 0.0)
 
 
 def quadratic(velocity: Any, k: Any) -> Any:
@@ -58,13 +68,19 @@ def field(position: Any, velocity: Any) -> Any:
     return velocity * -1.0 + position * 1e-6
 
 
+def test_pulls_to_a_place():
+    """What pulls to the origin alone is a stiffness alone; a weak one is not overlooked, nor one that drives away."""
+    assert probe(spring, ("position", "k"), ("vec3", "float")) == LinearForm(False, False, False, True)
+    assert probe(field, ("position", "velocity"), ("vec3", "vec3")) == LinearForm(False, True, False, True)
+
+
 def test_sum_of_all():
     """Wind that drags and turns has all three terms."""
     assert probe(all_three, ("velocity", "wind", "k"), ("vec3", "vec3", "float")) == LinearForm(True, True, True)
 
 
-@pytest.mark.parametrize("wrong", [spring, quadratic, normalised, uneven, sheared, field], ids=lambda wrong: wrong.__name__)
+@pytest.mark.parametrize("wrong", [pulled_aside, quadratic, normalised, uneven, sheared], ids=lambda wrong: wrong.__name__)
 def test_other_forms_are_refused(wrong):
-    """What reads the position, or is not linear, or damps unevenly, has no such form."""
+    """What is not linear, or damps or pulls unevenly, has no such form."""
     names = wrong.__code__.co_varnames[: wrong.__code__.co_argcount]
     assert probe(wrong, names, tuple("float" if name == "k" else "vec3" for name in names)) is None

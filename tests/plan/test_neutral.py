@@ -21,6 +21,7 @@ NEUTRAL = {
     "attract": {"strength": 0.0},
     "attract_line": {"strength": 0.0},
     "wind": {"drag": 0.0},
+    "spring": {"frequency": 0.0},
 }
 """Parameters at which each operator's `neutral` holds."""
 

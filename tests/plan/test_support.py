@@ -49,7 +49,42 @@ ODD = {
         "radius: float",
         "float",
         "radius",
-        "a flow operator that writes radius is not carried out by this version; it may write position",
+        "a flow operator that writes radius is not carried out by this version; it may write position or velocity, or both",
+    ),
+    "turns both": (
+        "flow",
+        '("position", "velocity")',
+        "position: Vec3, velocity: Vec3, dt: float",
+        "tuple[Vec3, Vec3]",
+        "position, velocity * dt",
+        "it writes position and velocity, and so must be the whole motion of a particle on which nothing else acts, "
+        "P' = P + V dt + ... with both read; write what moves particles otherwise as two operators",
+    ),
+    "carries unseen": (
+        "flow",
+        '("position", "velocity")',
+        "position: Vec3, dt: float",
+        "tuple[Vec3, Vec3]",
+        "position, position",
+        "it writes position and velocity, and so must be the whole motion of a particle on which nothing else acts, "
+        "P' = P + V dt + ... with both read; write what moves particles otherwise as two operators",
+    ),
+    "noise of a place": (
+        "noise",
+        '"velocity"',
+        "position: Vec3, draw: tuple",
+        "Vec3",
+        "position * draw[0]",
+        "a noise operator holds what it gives for 1/24 s, and so may not read the position or the velocity; write "
+        "what follows a particle as an acceleration, or as an applied velocity, of a field such as curl_noise",
+    ),
+    "noise of nothing": (
+        "noise",
+        "()",
+        "draw: tuple",
+        "float",
+        "draw[0]",
+        "a noise operator that writes nothing is not carried out by this version; it may write position or velocity",
     ),
     "identity": (
         "flow",

@@ -1,0 +1,77 @@
+"""The operators that move particles, each as it will run: as what it is declared, or in a form that is exact."""
+
+from __future__ import annotations
+
+import inspect
+from dataclasses import dataclass
+from typing import Any
+
+from graphfx.graph.flat import FlatNode
+from graphfx.motion.probe import LinearForm, probe
+from graphfx.plan.evaluate import holds
+from graphfx.plan.rates import depends_on_time, lane_type
+from graphfx.plan.values import node_function
+from graphfx.program import Function
+
+INNER_ROLES = ("flow", "velocity", "acceleration")
+"""Roles of the operators that are composed around the linear motion."""
+
+
+@dataclass
+class Mover:
+    """One operator of the motion, as it will run: its function, the names of its arguments, and its role.
+
+    A linear one has a form. An `idle` one acts at no time that is simulated.
+    """
+
+    node: FlatNode
+    function: Function
+    arguments: tuple[str, ...]
+    role: str
+    form: LinearForm | None = None
+    idle: bool = False
+
+    @property
+    def writes_velocity(self) -> bool:
+        """Return whether it changes the velocity, and through it alone the position; else the position."""
+        return "velocity" in self.node.node_type.writes
+
+    @property
+    def carries(self) -> bool:
+        """Return whether it is a flow that gives all of a particle's motion: its velocity carries it too."""
+        return self.role == "flow" and {"position", "velocity"} <= set(self.node.node_type.writes)
+
+    @property
+    def time_free(self) -> bool:
+        """Return whether what it does to a particle stays the same: its parameters, and that it acts."""
+        reads_time = {"time", "frame"}.intersection(self.arguments)
+        return self.node.during is None and self.node.only is None and self.constant and not reads_time
+
+    @property
+    def constant(self) -> bool:
+        """Return whether the values of its parameters stay the same for a particle."""
+        return not any(map(depends_on_time, self.node.arguments.values()))
+
+
+def mover_of(node: FlatNode, idle: bool = False) -> Mover:
+    """Return an operator as it will run.
+
+    A flow whose `exact_if` holds runs as the linear operator that it then is; a linear operator without a simple form
+    is an acceleration.
+    """
+    node_type = node.node_type
+    function, arguments, role = node_function(node_type), node_type.arguments, node_type.role
+    if role == "flow" and node_type.linear is not None and holds(node, node_type.exact_if):
+        function, arguments, role = *_rate_function(node_type), "linear"
+    form = None
+    if role == "linear" and "velocity" in node_type.writes:
+        form = probe(function.body, arguments, function.arguments)
+        role = "linear" if form is not None else "acceleration"
+    return Mover(node, function, arguments, role, form, idle)
+
+
+def _rate_function(node_type: Any) -> tuple[Function, tuple[str, ...]]:
+    """Return the rate of change that a flow has in its linear form."""
+    names = tuple(inspect.signature(node_type.linear).parameters)
+    types = tuple(lane_type(node_type.argument_type(name)) for name in names)
+    return Function(f"{node_type.name}_rate", node_type.linear, types, ("vec3",)), names

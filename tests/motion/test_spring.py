@@ -1,0 +1,178 @@
+"""Springs: their exact flow against a matrix exponential in extended precision, their limits, and what they do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from graphfx.math import Vec3
+from graphfx.motion import spring
+from graphfx.motion.linear import damped_fall, fall, spiral_fall
+
+from .one_particle import effect_of, path
+from .test_linear import RATES, STEPS, W, array, flow, vector
+
+LONG, COMPLEX = np.longdouble, np.clongdouble
+P, V, G = (1.0, -2.0, 0.5), (3.0, 4.0, -1.0), (0.3, -9.81, 0.1)
+AXIS = (0.6, 0.0, 0.8)
+
+
+def exponential(matrix: np.ndarray) -> np.ndarray:
+    """Return e^matrix by scaling and squaring."""
+    turns = max(0, int(np.ceil(np.log2(float(np.abs(matrix).max())))) + 8)
+    scaled, found, term = matrix / LONG(2) ** turns, np.eye(len(matrix), dtype=COMPLEX), np.eye(len(matrix), dtype=COMPLEX)
+    for n in range(1, 14):
+        term = term @ scaled / LONG(n)
+        found = found + term
+    for _ in range(turns):
+        found = found @ found
+    return found
+
+
+def exact(P: Any, V: Any, G: Any, d: float, w: Any, k: float, h: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return position and velocity after h: one oscillator along w, one complex one across it."""
+    P, V, G, w = (np.array(v, LONG) for v in (P, V, G, w))
+    speed = np.sqrt(w @ w)
+    axis = w / speed if speed > 0 else np.array([0, 0, 1], LONG)
+    first = np.cross(axis, [0, 1, 0])
+    first = first / np.sqrt(first @ first)
+    second = np.cross(axis, first)
+
+    def oscillator(p: Any, v: Any, f: Any, turning: Any) -> Any:
+        matrix = np.array([[0, h, 0], [-LONG(k) * h, (1j * turning - LONG(d)) * h, h], [0, 0, 0]], COMPLEX)
+        return (exponential(matrix) @ np.array([p, v, f], COMPLEX))[:2]
+
+    along = oscillator(axis @ P, axis @ V, axis @ G, LONG(0))
+    across = oscillator(*(first @ v + 1j * (second @ v) for v in (P, V, G)), speed)
+    return tuple(
+        (axis * a.real + first * z.real + second * z.imag).astype(float) for a, z in zip(along, across, strict=True)
+    )  # type: ignore[return-value]
+
+
+def sprung(P: Any, V: Any, G: Any, d: float, w: Any, k: float, h: float, kind: Any = np.float64) -> tuple[Any, Any]:
+    """Return position and velocity after h by the engine's own functions."""
+    P, V, G, w = (Vec3(*map(kind, v)) for v in (P, V, G, w))
+    d, k, h = kind(d), kind(k), kind(h)
+    with np.errstate(all="ignore"):
+        factors = spring.spring_factors.body(d, k, h)
+        if not array(w).any():
+            found = spring.damped_spring.body(P, V, G, k, h, *factors)
+        else:
+            found = spring.spiral_spring.body(P, V, G, w, k, h, *factors, *spring.turned_factors.body(d, w, k, h))
+    return array(found[0]), array(found[1])
+
+
+@pytest.mark.parametrize("turning", [0.0, 1e-6, 24.0, 300.0])
+@pytest.mark.parametrize("ratio", [0.0, 1e-9, 0.3, 1 - 1e-8, 1.0, 1 + 1e-8, 1.5, 50.0])
+@pytest.mark.parametrize("angle", [1e-6, 0.01, 0.5, 0.99, 1.01, 10.0, 100.0])
+def test_a_step_is_the_matrix_exponential(angle, ratio, turning):
+    """Position and velocity after a step are exact to 5e-12, for w h from 1e-6 to 100, however damped and turned."""
+    h = 1 / 24
+    frequency = angle / h
+    given = P, V, G, 2 * ratio * frequency, tuple(turning * a for a in AXIS), frequency**2, h
+    (position, velocity), (place, speed) = sprung(*given), exact(*given)
+    assert np.abs(position - place).max() <= 5e-12 * max(np.abs(place).max(), 0.1)
+    assert np.abs(velocity - speed).max() <= 5e-12 * max(np.abs(speed).max(), 1e-3 * frequency)
+
+
+@pytest.mark.parametrize("angle", [0.01, 0.1, 1.0, 10.0, 100.0])
+def test_240_steps_swing_as_the_cosine(angle):
+    """240 steps of an undamped spring end where the cosine says, to 1e-10, at the amplitude it began with, to 1e-11."""
+    h = 1 / 24
+    frequency = angle / h
+    position, velocity = P, V
+    for _ in range(240):
+        position, velocity = sprung(position, velocity, (0, 0, 0), 0.0, (0, 0, 0), frequency**2, h)
+    phase = LONG(frequency) * LONG(h) * 240
+    wanted = np.array(P) * np.cos(phase) + np.array(V) / frequency * np.sin(phase)
+    scale = np.abs(P).max() + np.abs(V).max() / frequency
+    assert np.abs(position - wanted).max() <= 1e-10 * scale
+    energy = [np.dot(v, v) + frequency**2 * np.dot(p, p) for p, v in ((position, velocity), (P, V))]
+    assert abs(np.sqrt(energy[0] / energy[1]) - 1) <= 1e-11
+
+
+@pytest.mark.parametrize("h", [1e-4, 1 / 24, 1.0])
+def test_over_damped(h):
+    """At k = 1e6 and d = 1e5 the slow root sqrt(d^2 / 4 - k) - d / 2 rules: x = x0 e^(-10.001 t), to 1e-11 of itself."""
+    k, d = 1e6, 1e5
+    slow = LONG(k) / (LONG(d) / 2 + np.sqrt(LONG(d) ** 2 / 4 - k))
+    fast = LONG(d) - slow
+    position, velocity = sprung((1, 0, 0), (0, 0, 0), (0, 0, 0), d, (0, 0, 0), k, h)
+    wanted = (fast * np.exp(-slow * h) - slow * np.exp(-fast * h)) / (fast - slow)
+    speed = -k * (np.exp(-slow * h) - np.exp(-fast * h)) / (fast - slow)
+    assert abs(position[0] / wanted - 1) <= 1e-11 and abs(velocity[0] / speed - 1) <= 1e-11
+
+
+@pytest.mark.parametrize("dt", [1e-3, 0.3, 4.0])
+def test_without_stiffness_it_is_what_it_was(dt):
+    """At k = 0 the flow is that of gravity, damping and turning alone; and next to 0 next to it."""
+    w, nought = array(W), (0.0, 0.0, 0.0)
+    pairs = [
+        (sprung(P, V, G, 0.0, nought, 0.0, dt), flow(fall, vector(*P), vector(*V), vector(*G), dt)),
+        (sprung(P, V, G, 1.7, nought, 0.0, dt), flow(damped_fall, vector(*P), vector(*V), vector(*G), 1.7, dt)),
+        (sprung(P, V, G, 1.7, nought, 1e-14, dt), flow(damped_fall, vector(*P), vector(*V), vector(*G), 1.7, dt)),
+        (sprung(P, V, G, -0.5, nought, 0.0, dt), flow(damped_fall, vector(*P), vector(*V), vector(*G), -0.5, dt)),
+        (sprung(P, V, G, 1.7, w, 0.0, dt), flow(spiral_fall, vector(*P), vector(*V), vector(*G), 1.7, W, dt)),
+    ]
+    for general, special in pairs:
+        for got, wanted in zip(general, special, strict=True):
+            assert np.abs(got - wanted).max() <= 1e-12 * np.abs(wanted).max()
+
+
+@pytest.mark.parametrize("dt", STEPS)
+def test_nothing_extreme_is_infinite(dt):
+    """For steps from 1e-12 to 1e6 s, stiffness to 1e12 and rates to 1e6 all results are finite, in both precisions."""
+    for damping in RATES:
+        for stiffness in (*RATES, 1e12):
+            for rate in (0.0, 1e-9, 24.0, 1e6):
+                for kind in (np.float32, np.float64):
+                    found = sprung(P, V, G, damping, tuple(rate * a for a in AXIS), stiffness, dt, kind)
+                    assert np.isfinite(found).all(), (damping, stiffness, rate, kind)
+
+
+REST = {"rest_position": [0.5, 0, 0]}
+SPRING = {"type": "spring", "frequency": 2 * np.pi, "damping_ratio": 0}
+
+
+def test_swings_about_its_rest_position():
+    """At a frequency of 2 pi a particle is back after a second, and at the other side of its rest position in between."""
+    position, velocity = path([SPRING], (1, 2, 0), **REST)
+    np.testing.assert_allclose(position[12], [0, -2, 0], rtol=0, atol=1e-13)
+    np.testing.assert_allclose(position[24], [1, 2, 0], rtol=0, atol=1e-13)
+    assert effect_of([SPRING], (1, 2, 0)).plan.emitters["one"].method == "exact" and np.abs(velocity[24]).max() < 1e-12
+
+
+def test_gravity_shifts_the_place_of_rest():
+    """Under gravity a damped spring comes to rest at q + g / k."""
+    ops = [SPRING | {"damping_ratio": 1, "frequency": 7}, {"type": "gravity"}]
+    position, _ = path(ops, (1, 2, 0), (3, 0, 1), frames=240, **REST)
+    np.testing.assert_allclose(position[-1], [0.5, -9.81 / 49, 0], rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("spiral", [0, 3.0])
+def test_all_linear_operators_in_one_step(spiral):
+    """Spring, gravity, damping, translation and spiral: one step of 2 s is 2000 steps of 1 ms, to 1e-11."""
+    ops = [
+        SPRING,
+        {"type": "gravity"},
+        {"type": "damp", "damping": 0.3},
+        {"type": "translate", "rate": [1, -2, 0.5]},
+        {"type": "spiral", "speed": spiral},
+    ]
+    once, often = (
+        path(ops, (1, 2, 0), (3, 0, 1), fps=0.5, frames=1, substeps=n, spiral_axis=[1, 1, 0], **REST) for n in (1, 2000)
+    )
+    for one, other in zip(once, often, strict=True):
+        np.testing.assert_allclose(one[-1], other[-1], rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("angle", [0.05, 0.5, 1.5])
+def test_the_paper_gains_energy_on_a_spring(angle):
+    """`sims` grows by its determinant: P' V - P V' is multiplied by 1 + w^2 h^2 / 2 in every step, to 1e-12."""
+    op = SPRING | {"frequency": angle * 24}
+    one = path([op], (1, 0, 0), (0, 0, 0), method="sims")
+    other = path([op], (0, 0, 0), (1, 0, 0), method="sims")
+    area = one[0][:, 0] * other[1][:, 0] - other[0][:, 0] * one[1][:, 0]
+    np.testing.assert_allclose(area[1:] / area[:-1], 1 + angle**2 / 2, rtol=1e-12)
