@@ -66,7 +66,7 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     values = NamedValues(checking, reader, part("values"), scope)
     _nodes(checking, graph, part("nodes"), NodeReader(checking, graph, reader, values))
     if whole:
-        check_references(checking, graph)
+        check_references(checking, graph, reader.meshes)
         around.outputs(part("outputs"))
         around.expose(part("expose"))
     graph.sound = len(checking.problems) == before

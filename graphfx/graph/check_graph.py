@@ -113,6 +113,9 @@ class GraphReader:
         if parameter.required:
             return parameter
         default = item.value["default"]
+        if kind == "mesh":
+            self.complain(default.location, f"{path}.default", "a mesh has no default; who uses the group names one of its own")
+            return replace(parameter, required=True)
         if default.is_object or default.broken:
             if default.is_object:
                 self.complain(default.location, f"{path}.default", "a default should be written out, not made by a value")

@@ -170,7 +170,7 @@ class NodeReader:
                     notes = (takes(entry.type_name, parameters.values()), declared(entry.node_type) if entry.node_type else "")
                     self.checking.complain(item.location, entry.path, f"{entry.type_name} needs '{parameter.name}'"
                                            + (f": {parameter.doc}" if parameter.doc else ""), *notes)
-            elif parameter.type in REFERENCE_TYPES:
+            elif parameter.type in REFERENCE_TYPES and not (parameter.type == "mesh" and given.is_object):
                 text = self.checking.text(given, path, f"{parameter.name}, the id of a node,")
                 if text:
                     entry.references[parameter.name] = (text, given.location)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.checking import Checking, declared, listed, nearest
@@ -11,7 +11,8 @@ from graphfx.graph.items import Item
 from graphfx.graph.model import Entry, Graph, StreamReference
 from graphfx.graph.moments import check_surfaces
 from graphfx.graph.names import LOOKS
-from graphfx.node import Parameter
+from graphfx.graph.values import Literal, parts_of
+from graphfx.node import NodeType, Parameter
 
 _TAKES_FROM = ("stack", "image", "spawn")
 
@@ -137,23 +138,26 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
     return True
 
 
-def check_references(checking: Checking, graph: Graph) -> None:
-    """Check all streams, references and selectors of a graph, then look for circles."""
+def check_references(checking: Checking, graph: Graph, meshes: Iterable[Literal] = ()) -> None:
+    """Check all streams, references, selectors and meshes that values name, then look for circles."""
+    for mesh in dict.fromkeys(meshes):
+        _check_target(checking, graph, Parameter("mesh", "mesh", None), mesh.value, mesh.location, mesh.path)
     for entry in walk(graph):
         for reference in streams_of(entry):
             check_stream(checking, graph, reference)
         parameters = entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
         for name, (target, location) in entry.references.items():
-            _check_node(checking, graph, entry, parameters[name], target, location)
+            _check_target(checking, graph, parameters[name], target, location, f"{entry.path}.{name}", entry.node_type)
+        if entry.kind == "geometry":
+            _check_geometry(checking, entry)
         check_condition(checking, graph, entry.only)
         check_surfaces(checking, graph, entry)
     _check_circles(checking, graph)
 
 
-def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Parameter, target: str, location: Location) -> None:
+def _check_target(checking: Checking, graph: Graph, parameter: Parameter, target: str, location: Location, path: str,
+                  node_type: NodeType | None = None) -> None:
     """Check a parameter that names a node; its `choices` are the node types that it may name."""
-    path = f"{entry.path}.{parameter.name}"
-
     def fits(node: Entry) -> bool:
         if parameter.type == "selector":
             return node.kind == "selectors"
@@ -161,17 +165,25 @@ def _check_node(checking: Checking, graph: Graph, entry: Entry, parameter: Param
             return node.kind == "geometry"
         return bool(node.streams) if parameter.type == "stream" else not parameter.choices or node.type_name in parameter.choices
 
-    wanted = " or ".join(parameter.choices) or {"node": "node", "mesh": "geometry"}.get(parameter.type, parameter.type)
+    wanted = " or ".join(parameter.choices) or {"node": "node", "mesh": "geometry node"}.get(parameter.type, parameter.type)
     wanted = ("an " if wanted[0] in "aeiou" else "a ") + wanted
     known = [name for name, node in graph.nodes.items() if fits(node)]
     note = f"nodes that fit: {listed(known)}"
     node = graph.nodes.get(target)
     if node is None:
         checking.complain(location, path, f"there is no node '{target}'." + nearest(target, known), note,
-                          declared(entry.node_type) if entry.node_type and not known else "")
+                          declared(node_type) if node_type and not known else "")
     elif node.role and not fits(node):
         checking.complain(location, path,
                           f"{parameter.name} should be the id of {wanted}; '{target}' is a node of type {node.type_name}", note)
+
+
+def _check_geometry(checking: Checking, entry: Entry) -> None:
+    """Complain of a geometry that takes points of a mesh, which might be its own."""
+    for value in entry.arguments.values():
+        mesh = next((part for part in parts_of(value) if isinstance(part, Literal) and part.type == "mesh"), None)
+        if mesh is not None:
+            checking.complain(value.location, value.path, f"what a geometry is made of reads no mesh; this reads '{mesh.value}'")
 
 
 def walk(graph: Graph) -> Iterator[Entry]:

@@ -35,6 +35,8 @@ class ValueReader:
     def __init__(self, checking: Checking, literals: Literals):
         """Complain to `checking`; find files as `literals` does."""
         self.checking, self.literals, self.complain = checking, literals, checking.complain
+        self.meshes: list[Literal] = []
+        """Meshes that values name, to be looked up when all nodes are known."""
 
     def read(self, item: Item, want: Parameter, scope: Scope, key: str) -> Value | None:
         """Return a value of the type that a parameter wants (any, where its type is ''), or None after a complaint.
@@ -69,6 +71,9 @@ class ValueReader:
         if item.is_object:
             return self._compound(item, want, scope, key)
         path = _join(scope.path, key)
+        if want.type == "mesh" and item.is_text:
+            self.meshes.append(Literal("mesh", item.location, path, "", item.value))
+            return self.meshes[-1]
         if item.is_list and any(part.is_object for part in item.value):
             if lane(want.type) in ("vec3", "") and len(item.value) == 3:
                 return self._vector_of_values(item, want, scope, key)
@@ -107,7 +112,7 @@ class ValueReader:
         modifiers = VALUE_KEYS.get(name, ("per",))
         self.checking.unknown_keys(item, path, (name, *modifiers), name)
         drawn = scope.settled and name not in ("param", "expr")
-        if name == "param" or not (drawn or want.type in ("string", "path", "interval", "list")):
+        if name == "param" or not (drawn or want.type in ("string", "path", "interval", "list", "mesh")):
             readers = {"param": self._param, "expr": self._expr, "keys": self._keys, "ramp": self._ramp, "rand": self._rand}
             return readers.get(name, self._node)(item, name, want, scope, key)
         self.complain(item.location, path, f"{want.name} should be {wanted(want)}, written out or given by {{\"param\": ...}}; "

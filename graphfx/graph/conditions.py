@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from graphfx.graph.check_values import ValueReader
@@ -11,7 +10,7 @@ from graphfx.graph.items import Item
 from graphfx.graph.model import Graph
 from graphfx.graph.names import CONDITIONS
 from graphfx.graph.scope import Scope
-from graphfx.graph.values import Call, Expression, Literal, Value, children
+from graphfx.graph.values import Call, Expression, Literal, Value, parts_of
 from graphfx.node import Parameter
 
 _ONLY = Parameter("only", "bool", None, doc="Particles that it acts on.")
@@ -70,22 +69,10 @@ def _joined(function: str, parts: list[Any]) -> Any:
     return Call(function, (_joined(function, parts[:half]), _joined(function, parts[half:])))
 
 
-def selectors_in(tree: Any, seen: set[int] | None = None) -> Iterator[Literal]:
-    """Yield what stands for selector nodes in a condition."""
-    seen = set() if seen is None else seen
-    if id(tree) in seen:
-        return
-    seen.add(id(tree))
-    if is_selector(tree):
-        yield tree
-    for part in children(tree):
-        yield from selectors_in(part, seen)
-
-
 def check_condition(checking: Checking, graph: Graph, condition: Value | None) -> None:
     """Complain of names in a condition that are no selector nodes."""
     known = [name for name, node in graph.nodes.items() if node.kind == "selectors"]
-    for named in selectors_in(condition):
+    for named in filter(is_selector, parts_of(condition)):
         node = graph.nodes.get(named.value)
         if node is None:
             message = f"there is no node '{named.value}'." + nearest(named.value, known)

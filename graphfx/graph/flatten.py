@@ -87,7 +87,8 @@ class Flattener:
             arguments[parameter.name] = value
         own = instance.graph.attributes
         sets = {name: instance.substitution.value(value, wanted_of(name, own)) for name, value in entry.sets.items()}
-        references = {name: instance.prefix + target for name, (target, _) in entry.references.items()}
+        references = {name: found.value for name, parameter in node_type.parameters.items() if parameter.type in REFERENCE_TYPES
+                      and isinstance(found := instance.substitution.argument(entry, parameter), Literal)}
         makes = entry.kind in ("emitters", "operators")
         only = gate.only if entry.kind == "operators" or entry.role == "spawn" else None
         if entry.kind == "selectors":

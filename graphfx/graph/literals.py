@@ -18,6 +18,7 @@ _WANTED = {
     "point": "a point [x, y, z]", "direction": "a direction [x, y, z]", "string": "text in quotes",
     "color": 'a colour, "#rrggbb" or linear [red, green, blue]', "path": "the path of a file",
     "interval": "an interval [start, end]", "list": "a list of numbers or texts", "": "a value",
+    "mesh": "the id of a geometry node",
 }
 
 

@@ -14,7 +14,8 @@ ATTRIBUTE_TYPES = ("float", "vec3", "point", "direction", "color", "cluster")
 CLUSTER_KEYS = ("count", "by")
 CLUSTER_WAYS = ("turn", "nearest")
 """How an emitter numbers its particles, the default first."""
-PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "string", "path", "interval", "list")
+PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "string", "path", "interval", "list",
+               "mesh")
 REFERENCE_TYPES = ("node", "stream", "selector", "surface", "mesh")
 """Types of parameters that name another node."""
 METHODS = ("auto", "exact", "strang", "adaptive", "rk45", "sims")

@@ -246,7 +246,7 @@ def _place(parameter: Parameter) -> Schema:
     if default is not None and not parameter.required:
         result["default"] = default
     if parameter.type in REFERENCE_TYPES:
-        return result | literal
+        return result | ({"anyOf": [literal, _closed({"param": _TEXT}, ("param",))]} if kind == "mesh" else literal)
     values = {"$ref": f"#/$defs/{kind}_value"} if kind in ("float", "vec3", "bool") else _closed({"param": _TEXT}, ("param",))
     return result | {"anyOf": [literal, values]}
 

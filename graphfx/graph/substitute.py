@@ -30,8 +30,10 @@ from graphfx.node.types import Parameter
 
 @dataclass
 class Substitution:
-    """What stands for the parameters of one instance of a graph; `prefix` is the instance's path with a slash, or '',
-    and `nodes` the graph's, among which conditions name selectors.
+    """What stands for the parameters of one instance of a graph.
+
+    `prefix` and `place` are the instance's path with a slash, or '', the first as seeds have it; `nodes` are the
+    graph's, among which conditions name selectors.
 
     Values that are shared stay shared: each is substituted once.
     """
@@ -40,6 +42,7 @@ class Substitution:
     given: Mapping[str, Value]
     prefix: str = ""
     nodes: Mapping[str, Entry] = field(default_factory=dict)
+    place: str = ""
     _done: dict[int, tuple[Any, Any]] = field(default_factory=dict)
 
     def seed(self, seed: str) -> str:
@@ -60,6 +63,14 @@ class Substitution:
             return Literal(value.type, value.location, value.path, "", (0.0, 0.0, 0.0) if lane(value.type) == "vec3" else 0.0)
         return result
 
+    def argument(self, entry: Entry, parameter: Parameter) -> Value | None:
+        """Return what a node states for a parameter, or None; a mesh is a literal with the path of the geometry."""
+        if parameter.name in entry.references:
+            target, location = entry.references[parameter.name]
+            return Literal(parameter.type, location, f"{entry.path}.{parameter.name}", "", self.place + target)
+        given = entry.arguments.get(parameter.name)
+        return None if given is None else self.value(given, parameter)
+
     def selector(self, name: str) -> Node:
         """Return the test of a selector node: wherever it is used, it draws the same numbers."""
         entry = self.nodes[name]
@@ -67,9 +78,8 @@ class Substitution:
         if known is None:
             parameters = entry.node_type.parameters  # type: ignore[union-attr]
             arguments = tuple(
-                (parameter.name, self.value(entry.arguments[parameter.name], parameter)
-                 if parameter.name in entry.arguments else default_value(parameter, f"{entry.path}.{parameter.name}"))
-                for parameter in parameters.values())
+                (parameter.name, self.argument(entry, parameter)
+                 or default_value(parameter, f"{entry.path}.{parameter.name}")) for parameter in parameters.values())
             test = Node("bool", entry.location, entry.path, self.seed(entry.seed), entry.node_type, arguments,
                         entry.per or SCOPES[0])
             known = self._done[id(entry)] = (entry, test)
@@ -111,6 +121,8 @@ class Substitution:
                 return self._expression(value)
             case Literal(type="selector"):
                 return self.selector(value.value)
+            case Literal(type="mesh"):
+                return replace(value, value=self.place + value.value)
             case Member():
                 return replace(value, value=self._value(value.value))  # type: ignore[arg-type]
             case Ramp():

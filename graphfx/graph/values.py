@@ -6,6 +6,7 @@ stand where a vector is wanted only if it is a literal of three numbers.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -145,6 +146,16 @@ def children(tree: Any) -> tuple[Any, ...]:
         case Member():
             return (tree.value,)
     return ()
+
+
+def parts_of(tree: Any, seen: set[int] | None = None) -> Iterator[Any]:
+    """Yield a value and all its parts, each once however often it is shared."""
+    seen = set() if seen is None else seen
+    if id(tree) not in seen:
+        seen.add(id(tree))
+        yield tree
+        for part in children(tree):
+            yield from parts_of(part, seen)
 
 
 def measure(tree: Any) -> Measure:

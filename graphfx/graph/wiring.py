@@ -101,11 +101,9 @@ class Wiring:
         assert group is not None
         given: dict[str, Value] = {}
         for name, parameter in group.params.items():
-            argument = entry.arguments.get(name)
-            given[name] = (outer.substitution.value(argument, parameter) if argument is not None
-                           else default_value(parameter, f"{entry.path}.{name}"))
+            given[name] = outer.substitution.argument(entry, parameter) or default_value(parameter, f"{entry.path}.{name}")
         seed = outer.substitution.seed(entry.seed) + "/"
-        substitution = Substitution(self.checking, given, seed, group.nodes)
-        inner = self.instance(group, f"{outer.prefix}{entry.place}/", substitution, inputs)
+        place = f"{outer.prefix}{entry.place}/"
+        inner = self.instance(group, place, Substitution(self.checking, given, seed, group.nodes, place), inputs)
         outer.groups[entry.place] = inner
         return inner

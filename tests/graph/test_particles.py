@@ -222,3 +222,40 @@ def test_the_tail_is_set_after_what_it_reads(library: Library) -> None:
     assert list(found.sets) == ["radius", "tail.radius", "tail.color"]
     tail: Value = found.sets["tail.color"]
     assert isinstance(tail, Literal) and (tail.type, tail.value) == ("color", (1.0, 1.0, 1.0))
+
+
+def meshes(tree: Any) -> list[str]:
+    """Return the meshes that a value names."""
+    return [part.value for part in parts(tree) if isinstance(part, Literal) and part.type == "mesh"]
+
+
+def test_meshes_are_paths_wherever_they_are_named(library: Library, tmp_path: Path) -> None:
+    """In operators, values, selectors, and inside a group: its own geometry, or one that a parameter brings."""
+    inner = {"v": {"type": "cling", "from": "p", "mesh": {"param": "shape"}, "only": "near"},
+             "near": {"type": "within", "mesh": "own"}, "own": {"type": "ball"},
+             "w": {"type": "push", "from": "v", "by": {"spot_on": {"mesh": {"param": "shape"}}},
+                   "only": {"within": {"mesh": {"param": "shape"}}}}}
+    group = {"graphfx": 1, "params": {"shape": {"type": "mesh"}}, "inputs": {"p": {}}, "outputs": {"p": "w"}, "nodes": inner}
+    (tmp_path / "g.json").write_text(json.dumps(group))
+    (tmp_path / "outer.json").write_text(json.dumps(group | {"use": {"g": "g.json"}, "nodes": {
+        "w": {"type": "g", "from": "p", "shape": {"param": "shape"}, "seed_key": "other"}}}))
+    nodes = {"sky": {"type": "emit", "set": {"position": {"spot_on": {"mesh": "round"}}}}, "round": {"type": "ball"},
+             "one": {"type": "g", "from": "sky", "shape": "round"}, "two": {"type": "outer", "from": "one", "shape": "round"},
+             "last": {"type": "cling", "from": "two", "mesh": "round"}}
+    found = flat(nodes, library, tmp_path, use={"g": "g.json", "outer": "outer.json"}).nodes
+    assert meshes(found["sky"].sets["position"]) == ["round"]
+    assert [found[path].references["mesh"] for path in ("last", "one/v", "two/w/v")] == ["round"] * 3
+    assert [meshes(found[path].only) for path in ("one/v", "two/w/v", "two/w/w")] == [["one/own"], ["two/w/own"], ["round"]]
+    assert meshes(found["two/w/w"].arguments["by"]) == ["round"]
+
+
+def test_a_group_that_needs_a_mesh_says_so(library: Library, tmp_path: Path) -> None:
+    """A parameter of type mesh has no default."""
+    group = {"graphfx": 1, "params": {"shape": {"type": "mesh", "doc": "What it clings to."}}, "inputs": {"p": {}},
+             "outputs": {"p": "v"}, "nodes": {"v": {"type": "cling", "from": "p", "mesh": {"param": "shape"}}}}
+    (tmp_path / "g.json").write_text(json.dumps(group))
+    for given, message in (({}, "g needs 'shape': What it clings to."), (
+            {"shape": "sky"}, "shape should be the id of a geometry node; 'sky' is a node of type emit")):
+        nodes = {**SKY, "v": {"type": "g", "from": "sky", **given}}
+        told = check(document_of({"graphfx": 1, "use": {"g": "g.json"}, "nodes": nodes}, folder=tmp_path), library)
+        assert [problem.message for problem in told] == [message]
