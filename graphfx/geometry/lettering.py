@@ -66,7 +66,7 @@ class _Face:
     def glyph(self, letter: str) -> Any:
         """Return a letter's glyph; raise GraphError for a letter that the font has not."""
         if ord(letter) not in self.names:
-            raise GraphError(Problem(f"the font {self.file.name} has no letter {letter!r}; give one that has, or change the text"))
+            raise GraphError(Problem(f"the font {self.file.name} has no letter {letter!r}; give one that has it"))
         return self.glyphs[self.names[ord(letter)]]
 
     def advance(self, letter: str) -> float:

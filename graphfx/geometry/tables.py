@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.errors import GraphError, Problem
 from graphfx.geometry.areas import alias_table
 from graphfx.geometry.mesh import Mesh
 from graphfx.geometry.tree import Tree
@@ -85,10 +84,3 @@ class MeshTables:
             parts[LINKS] = tree.links
             parts[LEAVES] = np.concatenate([self._faces[tree.order], tree.order[:, None]], axis=1)
         return parts
-
-
-def need_surface(mesh: Mesh, name: str) -> Mesh:
-    """Return a mesh that has a surface; raise GraphError for one that has none."""
-    if not mesh.areas.sum() > 0:
-        raise GraphError(Problem(f"{name} has points but no surface; take from_points or at_vertices, or a mesh with triangles"))
-    return mesh

@@ -1,0 +1,88 @@
+"""The meshes of a plan: made when a program first needs them, moved to where they stand at each step."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from graphfx.errors import GraphError, LimitError, Problem
+from graphfx.geometry.demands import check_mesh, needs_tree
+from graphfx.geometry.mesh import Mesh, checked, transform
+from graphfx.geometry.tables import MeshTables
+from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal
+from graphfx.node.declare import TRANSFORM
+from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.make import plain_value
+from graphfx.plan.rates import depends_on_time
+from graphfx.program import Call
+
+STANDING = tuple(parameter.name for parameter in TRANSFORM)
+"""Parameters that say where a mesh stands; the others make it."""
+KEPT = 4
+"""Times at which the tables of a moving mesh are kept."""
+
+
+class Meshes:
+    """The tables of all meshes by path and time."""
+
+    def __init__(self, flat: FlatGraph):
+        """Make nothing yet."""
+        self.flat = flat
+        self._made: dict[str, Mesh] = {}
+        self._tables: dict[str, dict[Any, MeshTables]] = {}
+        self._searched: set[str] = set()
+
+    def prepare(self, programs: Iterable[FrameProgram]) -> None:
+        """Make the meshes that programs read; raise GraphError for one that a function there cannot work on."""
+        for made in programs:
+            for name, uniform in made.times.items():
+                if not isinstance(name, tuple) or name[0] != "mesh":
+                    continue
+                node = self.flat.nodes[name[1]]
+                for call in made.program.walk():
+                    if isinstance(call, Call) and uniform in call.operands:
+                        body = call.function.body
+                        self._located(node, lambda mesh, body=body, call=call: check_mesh(mesh, body, call.function.name))
+                        if needs_tree(body):
+                            self._searched.add(node.path)
+
+    def at(self, path: str, time: float, frame: int) -> MeshTables:
+        """Return the tables of a mesh as it stands at a time [s]."""
+        node = self.flat.nodes[path]
+        standing = tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
+        kept = self._tables.setdefault(path, {})
+        if standing not in kept:
+            while len(kept) >= KEPT:
+                del kept[next(iter(kept))]
+            kept[standing] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
+        return kept[standing]
+
+    def _located(self, node: FlatNode, check: Any = None) -> Mesh:
+        """Return the mesh of a node where it was made, after a check of it; what is wrong is told at the node."""
+        try:
+            if node.path not in self._made:
+                self._made[node.path] = checked(node.node_type.function(**self._given(node)), "the mesh")
+            if check is not None:
+                check(self._made[node.path])
+        except (GraphError, LimitError) as error:
+            found = [replace(problem, location=node.location, path=f"nodes.{node.path}") for problem in error.problems]
+            raise type(error)(found) from error.__cause__
+        return self._made[node.path]
+
+    def _given(self, node: FlatNode) -> dict[str, Any]:
+        """Return the arguments that make a mesh: numbers, whole where they are declared so, texts and lists."""
+        given: dict[str, Any] = {}
+        for name in node.node_type.arguments:
+            value = node.arguments[name]
+            if depends_on_time(value):
+                raise GraphError(Problem(f"{name} changes with time; of a mesh only {', '.join(STANDING)} may"))
+            found = plain_value(value)
+            given[name] = int(found) if node.node_type.parameters[name].type == "int" else found
+        return given
+
+
+def moves(node: FlatNode) -> bool:
+    """Return whether a mesh moves while the graph is cooked."""
+    return not all(isinstance(node.arguments[name], Literal) for name in STANDING)
