@@ -52,6 +52,8 @@ class FlatNode:
     """Names of the parameters that the document states; the rest stand at their defaults."""
     surfaces: tuple[str, ...] = ()
     clusters: dict[str, Cluster] = field(default_factory=dict)
+    seed: str = ""
+    """What keys its own random numbers: its path, or its `seed_key`."""
 
 
 @dataclass(frozen=True)

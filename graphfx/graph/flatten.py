@@ -98,7 +98,8 @@ class Flattener:
             path, node_type, instance.sources[entry.place], arguments, sets, references,
             only, gate.during if makes else None, entry.when, gate.enabled,
             instance.looks.get(entry.place, ()), entry.location, frozenset(entry.arguments),
-            tuple(instance.prefix + target for target, _ in entry.surfaces), self._clusters(instance, entry))
+            tuple(instance.prefix + target for target, _ in entry.surfaces), self._clusters(instance, entry),
+            instance.substitution.seed(entry.seed))
         check_inherited(self.checking, arguments.get("inherit") if entry.role == "spawn" else None, instance.graph)
 
     def _clusters(self, instance: Instance, entry: Entry) -> dict[str, Cluster]:
