@@ -199,6 +199,7 @@ class ValueReader:
 
     def _ramp(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
         path = _join(scope.path, key)
+        interpolation = self._choice(item, path, "interpolation", INTERPOLATIONS)
         pairs = self._pairs(item, name, want, path, "position")
         over = item.value.get("over")
         if over is not None and not over.is_text:
@@ -211,7 +212,8 @@ class ValueReader:
         if pairs is None or reads is None:
             return None
         positions, values, kind = pairs
-        return Ramp(kind, item.location, path, _seed(scope, key), tuple(positions), tuple(values), reads)
+        return Ramp(kind, item.location, path, _seed(scope, key), tuple(positions), tuple(values), reads,
+                    interpolation)
 
     def _rand(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
         path, inner = _join(scope.path, key), item.value[name]

@@ -52,10 +52,11 @@ LOOKS = {"blend": ("over", "add"), "falloff": ("linear", "gaussian", "disc"), "s
 """What an entry of an image's `from` may say, the default first."""
 
 VALUE_KEYS = {
-    "param": (), "expr": (), "keys": ("interpolation", "repeat"), "ramp": ("over",), "rand": ("per", "vary"),
+    "param": (), "expr": (), "keys": ("interpolation", "repeat"), "ramp": ("over", "interpolation"), "rand": ("per", "vary"),
 }
 """The language's own values with their modifiers; all others are nodes of the kind `values`, with `per`."""
-INTERPOLATIONS = ("linear", "step", "smooth")
+INTERPOLATIONS = ("linear", "step", "smooth", "spline")
+"""How keys and ramps go from point to point; a spline is a cubic (Catmull and Rom 1974) through all of them."""
 REPEATS = ("hold", "loop", "mirror")
 SCOPES = ("life", "particle", "hit", "frame", "graph")
 

@@ -219,7 +219,8 @@ def _values(kind: str, nodes: list[NodeType]) -> Schema:
         forms += [
             _closed({"keys": pairs, "interpolation": {"enum": list(INTERPOLATIONS)}, "repeat": {"enum": list(REPEATS)}},
                     ("keys",), "Values at times [s]."),
-            _closed({"ramp": pairs, "over": {"anyOf": [_TEXT, {"$ref": "#/$defs/float_value"}], "default": "normalized_age"}},
+            _closed({"ramp": pairs, "over": {"anyOf": [_TEXT, {"$ref": "#/$defs/float_value"}], "default": "normalized_age"},
+                     "interpolation": {"enum": list(INTERPOLATIONS)}},
                     ("ramp",), "Values over another value."),
             _closed({"rand": {"type": "array", "prefixItems": [part, part], "minItems": 2, "maxItems": 2}, "per": scope,
                      "vary": {"type": "number", "minimum": 0, "maximum": 1}}, ("rand",), "A random value between two."),

@@ -71,7 +71,8 @@ class Expression(Value):
 
 @dataclass(frozen=True)
 class Keys(Value):
-    """`{"keys": [[t, v], ...]}` over time [s]: interpolation 'linear', 'step' or 'smooth'; repeat 'hold', 'loop' or 'mirror'."""
+    """`{"keys": [[t, v], ...]}` over time [s]: interpolation 'linear', 'step', 'smooth' or 'spline'; repeat 'hold',
+    'loop' or 'mirror'."""
 
     times: tuple[float, ...] = ()
     values: tuple[Any, ...] = ()
@@ -81,11 +82,12 @@ class Keys(Value):
 
 @dataclass(frozen=True)
 class Ramp(Value):
-    """`{"ramp": [[x, v], ...], "over": value}`: linear between the points, held beyond them."""
+    """`{"ramp": [[x, v], ...], "over": value}`: between the points as the interpolation says, held beyond them."""
 
     positions: tuple[float, ...] = ()
     values: tuple[Any, ...] = ()
     over: Value | None = None
+    interpolation: str = "linear"
 
 
 @dataclass(frozen=True)

@@ -63,6 +63,25 @@ def key_vector(before: Any, x: Any, x0: Any, x1: Any, v0: Any, v1: Any) -> Any:
     return where(x >= x0, v0 + (v1 - v0) * _share(x, x0, x1), before)
 
 
+@EXPRESSIONS.function("float float float float float float float float", "float")
+def spline_number(before: Any, x: Any, x0: Any, x1: Any, v0: Any, v1: Any, m0: Any, m1: Any) -> Any:
+    """From x0 on: v0 + (v1 - v0) (3 s^2 - 2 s^3) + (m0 s (1 - s)^2 - m1 s^2 (1 - s)) (x1 - x0), Hermite's cubic with the
+    slopes m0 and m1 and with s as in `key_number`; else what stood before."""
+    s = _share(x, x0, x1)
+    rest = 1.0 - s
+    bend = (m0 * (s * rest * rest) - m1 * (s * s * rest)) * (x1 - x0)
+    return where(x >= x0, v0 + (v1 - v0) * (s * s * (3.0 - 2.0 * s)) + bend, before)
+
+
+@EXPRESSIONS.function("vec3 float float float vec3 vec3 vec3 vec3", "vec3")
+def spline_vector(before: Any, x: Any, x0: Any, x1: Any, v0: Any, v1: Any, m0: Any, m1: Any) -> Any:
+    """`spline_number` for vectors."""
+    s = _share(x, x0, x1)
+    rest = 1.0 - s
+    bend = (m0 * (s * rest * rest) - m1 * (s * s * rest)) * (x1 - x0)
+    return where(x >= x0, v0 + (v1 - v0) * (s * s * (3.0 - 2.0 * s)) + bend, before)
+
+
 @EXPRESSIONS.function("float float float", "float")
 def smooth_between(x: Any, x0: Any, x1: Any) -> Any:
     """x moved within [x0, x1] so that it starts and ends at rest: x0 + (x1 - x0) (3 s^2 - 2 s^3)."""

@@ -100,7 +100,8 @@ def identity_of(tree: Any) -> Any:
         case Keys():
             return ("keys", tree.type, tree.times, tuple(map(identity_of, tree.values)), tree.interpolation, tree.repeat)
         case Ramp():
-            return ("ramp", tree.type, tree.positions, tuple(map(identity_of, tree.values)), identity_of(tree.over))
+            points = tuple(map(identity_of, tree.values))
+            return ("ramp", tree.type, tree.positions, points, identity_of(tree.over), tree.interpolation)
         case Random():
             return ("rand", tree.seed, tree.per, tree.vary, identity_of(tree.low), identity_of(tree.high))
         case Member():

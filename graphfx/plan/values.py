@@ -16,7 +16,8 @@ from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, 
 from graphfx.math.random import key_of
 from graphfx.plan import arithmetic
 from graphfx.plan.arithmetic import function_for
-from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, identity_of, lane_type, rate_of
+from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, identity_of, lane_type, literal, rate_of
+from graphfx.plan.splines import slopes
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 from graphfx.program.reference import execute
 
@@ -207,15 +208,21 @@ class _Lowering:
         held = [point if isinstance(point, Value) else Literal(tree.type, value=point) for point in points]
         values = [self.writer.operand(point) for point in held]
         where = [self.writer.operand(float(position)) for position in positions]
-        shape = {"smooth": arithmetic.smooth_between, "step": arithmetic.held_between}.get(getattr(tree, "interpolation", ""))
+        shape = {"smooth": arithmetic.smooth_between, "step": arithmetic.held_between}.get(tree.interpolation)
         if shape:
             for first, last in pairwise(where):
                 x = self.builder.call(shape, x, first, last)
         function = arithmetic.key_vector if type_ == "vec3" else arithmetic.key_number
+        bends: list[Operand] = []
+        if tree.interpolation == "spline":
+            function = arithmetic.spline_vector if type_ == "vec3" else arithmetic.spline_number
+            known = [literal(point) for point in held]
+            bends = [self.writer.operand(Literal(tree.type, value=slope)) for slope in slopes(positions, known)]
         result: Operand = values[0]
         for k in range(max(len(values) - 1, 1)):
             after = min(k + 1, len(values) - 1)
-            result = self.builder.call(function, result, x, where[k], where[after], values[k], values[after], name=_name_of(tree))
+            ends = [values[k], values[after], *([bends[k], bends[after]] if bends else [])]
+            result = self.builder.call(function, result, x, where[k], where[after], *ends, name=_name_of(tree))
         return result
 
     def _results(self, tree: Node) -> tuple[Operand, ...]:
