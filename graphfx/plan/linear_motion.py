@@ -80,7 +80,7 @@ class LinearMotion:
     def _noise(self, mover: Mover, moment: Moment, state: State, cell: int) -> Terms:
         """Write the draw of a cell and what the operator makes of it."""
         scope = moment.writer.scope
-        key = key_of(scope.seed, scope.emitter, mover.node.path)
+        key = key_of(scope.seed, scope.emitter, mover.node.seed)
         draw = moment.builder.draw(key, scope.identity(), Uniform("0", "word", 0), moment.cell_time("cell", cell))
         given = self.arguments(mover, moment, state, {"draw": draw})
         made = moment.builder.call(mover.function, *given, name=mover.node.node_type.name)

@@ -5,11 +5,13 @@ from __future__ import annotations
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, TimeSettings
 from graphfx.motion.clock import most_cells
-from graphfx.plan.motion import Mover
+from graphfx.plan.movers import INNER_ROLES, Mover
+
+LINEAR_ROLES = ("linear", "noise")
 
 
-def _has_role(movers: list[Mover], role: str) -> bool:
-    return any(mover.role == role for mover in movers)
+def _has_role(movers: list[Mover], *roles: str) -> bool:
+    return any(mover.role in roles for mover in movers)
 
 
 def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
@@ -27,21 +29,38 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[s
     asked = flat.time.method
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
-    inner = [mover for mover in movers if mover.role in ("flow", "acceleration")]
+    inner = [mover for mover in movers if mover.role in INNER_ROLES]
     parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
-    if not parts or (drifts and not _has_role(movers, "linear")):
+    if not parts or (drifts and not _has_role(movers, *LINEAR_ROLES)):
         parts.insert(0, "free flight")
     names = ", ".join(parts)
     if not inner:
-        changing = [mover.node.node_type.name for mover in movers if mover.role == "linear" and not mover.constant]
-        if changing:
-            held = ", ".join(changing)
-            return "exact", f"all motion is linear ({names}): exact but for {held}, taken at the middle of each step"
-        return "exact", f"all motion is linear ({names}): one exact step"
-    if len(inner) == 1 and inner[0].role == "flow" and inner[0].time_free and not drifts and not _has_role(movers, "linear"):
-        return "exact", f"one flow and nothing else ({names}): one exact step"
+        return "exact", f"all motion is linear ({names}): {_how_exact(movers)}"
+    if len(inner) == 1 and not _has_role(movers, *LINEAR_ROLES) and _is_alone(inner[0], drifts):
+        what = "one flow, which carries by the velocity too" if inner[0].carries else "one flow and nothing else"
+        return "exact", f"{what} ({inner[0].node.node_type.name}): one exact step"
     if asked == "exact":
         raise GraphError(
             Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")
         )
-    return "strang", f"flows that do not commute ({names}): composed symmetrically, second order"
+    return "strang", f"{_why_composed(inner)} ({names}): composed symmetrically, second order"
+
+
+def _how_exact(movers: list[Mover]) -> str:
+    """Return how exact the steps of linear motion are, and what in them is not."""
+    changing = [mover.node.node_type.name for mover in movers if mover.role == "linear" and not mover.constant]
+    held = " in each 1/24 s, for which noise holds" if _has_role(movers, "noise") else ""
+    if changing:
+        return f"exact{held} but for {', '.join(changing)}, taken at the middle of each step"
+    return f"one exact step{held}"
+
+
+def _is_alone(mover: Mover, drifts: bool) -> bool:
+    """Return whether a flow is all of the motion, and the same at all times."""
+    return mover.role == "flow" and mover.time_free and (mover.carries or not drifts)
+
+
+def _why_composed(inner: list[Mover]) -> str:
+    """Return what keeps a motion from being exact."""
+    fields = [mover for mover in inner if mover.role != "flow"]
+    return "fields that change along the way" if fields and len(fields) == len(inner) else "flows that do not commute"
