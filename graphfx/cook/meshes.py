@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
@@ -16,7 +16,7 @@ from graphfx.node.declare import TRANSFORM
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import plain_value
 from graphfx.plan.rates import depends_on_time
-from graphfx.program import Call
+from graphfx.program import Call, Function
 
 STANDING = tuple(parameter.name for parameter in TRANSFORM)
 """Parameters that say where a mesh stands; the others make it."""
@@ -33,33 +33,43 @@ class Meshes:
         self._made: dict[str, Mesh] = {}
         self._tables: dict[str, dict[Any, MeshTables]] = {}
         self._searched: set[str] = set()
+        self._prepared: set[int] = set()
 
-    def prepare(self, programs: Iterable[FrameProgram]) -> None:
-        """Make the meshes that programs read; raise GraphError for one that a function there cannot work on."""
-        for made in programs:
-            for name, uniform in made.times.items():
-                if not isinstance(name, tuple) or name[0] != "mesh":
-                    continue
-                node = self.flat.nodes[name[1]]
-                for call in made.program.walk():
-                    if isinstance(call, Call) and uniform in call.operands:
-                        body = call.function.body
-                        self._located(node, lambda mesh, body=body, call=call: check_mesh(mesh, body, call.function.name))
-                        if needs_tree(body):
-                            self._searched.add(node.path)
+    def prepare(self, made: FrameProgram) -> None:
+        """Make the meshes that a program reads; raise GraphError for one that a function there cannot work on."""
+        if id(made) in self._prepared or not made.meshes:
+            return
+        self._prepared.add(id(made))
+        paths = {id(uniform): path for (path, _), uniform in made.meshes.items()}
+        for call in made.program.walk():
+            for operand in call.operands if isinstance(call, Call) else ():
+                if id(operand) in paths and isinstance(call, Call):
+                    self._check(self.flat.nodes[paths[id(operand)]], call.function)
+
+    def _check(self, node: FlatNode, function: Function) -> None:
+        self._located(node, lambda mesh: check_mesh(mesh, function.body, function.name))
+        if needs_tree(function.body):
+            self._searched.add(node.path)
+
+    def uniforms(self, made: FrameProgram, start: float, length: float, substeps: int, frame: int) -> dict[int, MeshTables]:
+        """Return the meshes of a program over a frame of `length` [s] that begins at `start`, by id of their uniforms."""
+        self.prepare(made)
+        middles = {key: start + length * ((key[1] + 0.5) / substeps if key[1] >= 0 else 0.5) for key in made.meshes}
+        return {id(uniform): self.at(key[0], middles[key], frame) for key, uniform in made.meshes.items()}
 
     def at(self, path: str, time: float, frame: int) -> MeshTables:
         """Return the tables of a mesh as it stands at a time [s]."""
         node = self.flat.nodes[path]
         standing = tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
         kept = self._tables.setdefault(path, {})
-        if standing not in kept:
+        key = (standing, path in self._searched)
+        if key not in kept:
             while len(kept) >= KEPT:
                 del kept[next(iter(kept))]
-            kept[standing] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
-        return kept[standing]
+            kept[key] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
+        return kept[key]
 
-    def _located(self, node: FlatNode, check: Any = None) -> Mesh:
+    def _located(self, node: FlatNode, check: Callable[[Mesh], None] | None = None) -> Mesh:
         """Return the mesh of a node where it was made, after a check of it; what is wrong is told at the node."""
         try:
             if node.path not in self._made:

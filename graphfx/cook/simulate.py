@@ -10,6 +10,7 @@ import numpy as np
 
 from graphfx.cook.births import Births
 from graphfx.cook.executor import Executor, Job
+from graphfx.cook.meshes import Meshes
 from graphfx.motion.clock import Clock, Interval, cell_time
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import EmitterPlan, Plan
@@ -63,6 +64,7 @@ class Simulation:
         time = plan.flat.time
         self.plan = plan
         self.executor = executor
+        self.meshes = Meshes(plan.flat)
         self.clock = Clock(time.fps, time.first, time.preroll)
         self.particles = {
             path: Particles(
@@ -81,6 +83,9 @@ class Simulation:
     def frames(self, last: int) -> Iterator[int]:
         """Simulate up to frame `last`, yielding each frame's number from the first on."""
         for emitter in self.plan.emitters.values():
+            for made in (emitter.birth, emitter.main, emitter.own):
+                if made is not None:
+                    self.meshes.prepare(made)
             for program in emitter.programs:
                 self.executor.prepare(program)
         beginning = Interval(self.clock.start, self.clock.start, self.clock.first)
@@ -188,6 +193,7 @@ class Simulation:
                     "frame": interval.frame,
                     "frame word": interval.frame & 0xFFFFFFFF,
                 }[name]
+        values |= self.meshes.uniforms(made, interval.start, interval.length, substeps, interval.frame)
         for k, steps in enumerate(made.steps):
             values |= find_step_values(steps, interval.start + (k + 0.5) * length, interval.frame, self.plan.precision)
         return values

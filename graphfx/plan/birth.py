@@ -24,7 +24,8 @@ def write_birth(emitter: FlatNode, attributes: Attributes, seed: int, precision:
             "time": lambda: builder.load("birth_time", "float"),
             "frame": lambda: made.time(builder, "frame"),
             "frame word": lambda: made.time(builder, "frame word"),
-        }
+        },
+        lambda path: made.mesh(builder, path),
     )
     writer = ValueWriter(builder, scope, clock, None, precision)
     for name in birth_order(emitter, stored):

@@ -20,6 +20,8 @@ class FrameProgram:
     steps: list[StepValues]
     times: dict[Any, Uniform] = field(default_factory=dict)
     cells: int = 1
+    meshes: dict[tuple[str, int], Uniform] = field(default_factory=dict)
+    """Meshes by path and substep, each as it stands in the middle of that; of the whole frame for substep -1."""
 
     def time(self, builder: Builder, name: Any) -> Uniform:
         """Return the uniform of a time, made when it is first asked for."""
@@ -29,17 +31,25 @@ class FrameProgram:
             self.times[name] = builder.uniform(shown, "word" if is_word else "float")
         return self.times[name]
 
+    def mesh(self, builder: Builder, path: str, k: int = -1) -> Uniform:
+        """Return the uniform of a mesh in substep k, made when it is first asked for."""
+        if (path, k) not in self.meshes:
+            self.meshes[path, k] = builder.uniform(f"mesh {path}", "mesh")
+        return self.meshes[path, k]
+
 
 class LazyClock(dict[str, Operand]):
-    """Times by name, each written when it is first asked for."""
+    """Times by name, each written when it is first asked for; and meshes, as "mesh " and the path."""
 
-    def __init__(self, makers: dict[str, Callable[[], Operand]]):
+    def __init__(self, makers: dict[str, Callable[[], Operand]], mesh: Callable[[str], Operand] | None = None):
         super().__init__()
         self.makers = makers
+        self.mesh = mesh
 
     def __missing__(self, name: str) -> Operand:
         """Write a time."""
-        self[name] = self.makers[name]()
+        is_mesh = self.mesh is not None and name.startswith("mesh ")
+        self[name] = self.mesh(name.removeprefix("mesh ")) if self.mesh and is_mesh else self.makers[name]()
         return self[name]
 
     def __contains__(self, name: object) -> bool:

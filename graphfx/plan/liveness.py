@@ -22,11 +22,13 @@ def names_in(tree: Any) -> set[str]:
 
 
 def draws_in(tree: Any) -> bool:
-    """Return whether a value draws random numbers for each particle."""
+    """Return whether a value draws random numbers for each particle, or reads its id."""
     own = isinstance(tree, Random) or (
         isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
     )
-    return (own and tree.per != "graph") or any(draws_in(part) for part in children(tree))
+    own = own and tree.per != "graph"
+    own |= isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
+    return own or any(draws_in(part) for part in children(tree))
 
 
 @dataclass

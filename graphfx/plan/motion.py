@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from graphfx.graph.values import Name
+from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic
 from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_step
 from graphfx.plan.moment import Moment, State
@@ -49,6 +49,8 @@ class Motion:
                 operands.append(replaced[name])
             elif name in mover.node.arguments:
                 operands.append(moment.writer.argument(mover.node.arguments[name]))
+            elif name in mover.node.references:
+                operands.append(moment.writer.operand(Literal("mesh", value=mover.node.references[name])))
             elif name == "dt":
                 operands.append(moment.dt)
             elif name in ("time", "frame"):

@@ -59,17 +59,19 @@ def rate_of(tree: Any, scope: Scope) -> Rate:
     own = Rate.CONSTANT
     if isinstance(tree, Name):
         own = Rate.STEP if tree.name in CLOCK_NAMES else Rate.PARTICLE if scope.per_particle(tree.name) else Rate.CONSTANT
+    elif isinstance(tree, Literal) and tree.type == "mesh":
+        own = Rate.PARTICLE
     elif isinstance(tree, Keys):
         own = Rate.STEP
     elif isinstance(tree, Random):
         own = Rate.CONSTANT if tree.per == "graph" and not tree.vary else Rate.PARTICLE
     elif isinstance(tree, Node) and tree.node_type is not None:
         reserved = tree.node_type.reserved
-        if "draw" in reserved and tree.per != "graph":
+        if ("draw" in reserved and tree.per != "graph") or "id" in reserved:
             own = Rate.PARTICLE
         own = max(
             own,
-            *(rate_of(Name(name), scope) for name in (*tree.node_type.reads, *reserved) if name not in ("draw", "dt")),
+            *(rate_of(Name(name), scope) for name in (*tree.node_type.reads, *reserved) if name not in ("draw", "dt", "id")),
             Rate.CONSTANT,
         )
     return max(own, *(rate_of(part, scope) for part in children(tree)), Rate.CONSTANT)
@@ -78,6 +80,7 @@ def rate_of(tree: Any, scope: Scope) -> Rate:
 def depends_on_time(tree: Any) -> bool:
     """Return whether a value changes while a particle lives: by time, frame, age, or an attribute that moves."""
     changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per == "frame")
+    changing |= isinstance(tree, Literal) and tree.type == "mesh"
     reads = (
         isinstance(tree, Node)
         and tree.node_type is not None

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import networkx
 
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal, children
 from graphfx.plan.evaluate import holds
 
 OUTPUT_ROLES = ("image",)
@@ -52,7 +54,7 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     edges = networkx.DiGraph()
     edges.add_nodes_from(flat.nodes)
     for path, node in flat.nodes.items():
-        edges.add_edges_from((source, path) for source in (*through[path], *node.references.values()))
+        edges.add_edges_from((source, path) for source in (*through[path], *node.references.values(), *_meshes(node)))
     outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
     if not outputs:
         raise GraphError(Problem("the graph has no output: give it an enabled node of type 'image'", path="nodes"))
@@ -63,6 +65,18 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     place = {path: k for k, path in enumerate(flat.nodes)}
     order = networkx.lexicographical_topological_sort(edges.subgraph(needed - set(dropped)), key=place.__getitem__)
     return Schedule(list(order), dropped, {path: through[path] for path in through if path not in dropped})
+
+
+def _meshes(node: FlatNode) -> set[str]:
+    """Return the paths of the meshes that a node's values read."""
+    waiting: list[Any] = [*node.arguments.values(), *node.sets.values(), *([node.only] if node.only is not None else [])]
+    found = set()
+    while waiting:
+        tree = waiting.pop()
+        if isinstance(tree, Literal) and tree.type == "mesh":
+            found.add(tree.value)
+        waiting += children(tree)
+    return found
 
 
 def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]:

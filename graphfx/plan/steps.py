@@ -173,7 +173,7 @@ class FrameWriter:
         steps = StepValues()
         made.steps.append(steps)
         scope = self._scope(builder, self._reader(builder, state, lambda: made.time(builder, ("middle", k))))
-        clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")})
+        clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")}, lambda path: made.mesh(builder, path, k))
         writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
         return Moment(
             builder,
@@ -196,7 +196,8 @@ class FrameWriter:
                 "time": lambda: builder.call(basic.sum_of_numbers, start, lane["middle"], name="time"),
                 "frame": lambda: made.time(builder, "frame"),
                 "frame word": lambda: made.time(builder, "frame word"),
-            }
+            },
+            lambda path: made.mesh(builder, path, k),
         )
         state = self._state(builder)
         scope = self._scope(builder, self._reader(builder, state, lambda: lane["middle"]))

@@ -41,8 +41,9 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
             place,
             path,
         )
-    for parameter in node.node_type.parameters.values() if not node.node_type.language else ():
-        if parameter.type not in NUMERIC_TYPES:
+    particles = not node.node_type.language and node.node_type.kind != "geometry"
+    for parameter in node.node_type.parameters.values() if particles else ():
+        if parameter.type not in (*NUMERIC_TYPES, "mesh"):
             yield Problem(
                 f"its parameter '{parameter.name}' is a {parameter.type}, and functions for particles are given "
                 f"{', '.join(NUMERIC_TYPES)} alone in this version",

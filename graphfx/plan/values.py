@@ -38,7 +38,7 @@ class StepValues:
 class ValueWriter:
     """Writes the instructions that find values at one rate; what is slower is found at its own.
 
-    `clock` gives `time` [s] and `frame` as operands of the builder where there are no step values;
+    `clock` gives `time` [s] and `frame` as operands of the builder where there are no step values, and meshes;
     `shared` holds what was found before for the whole program, by id of the value.
     """
 
@@ -79,6 +79,8 @@ class ValueWriter:
             return Uniform(_shown(tree), "bool", bool(tree))
         if isinstance(tree, (int, float, np.floating)):
             return Uniform(_shown(tree), "float", float(tree))
+        if isinstance(tree, Literal) and tree.type == "mesh":
+            return self.clock[f"mesh {tree.value}"]
         if isinstance(tree, Literal):
             return Uniform(_shown(tree.value), lane_type(tree.type), tree.value)
         rate = rate_of(tree, self.scope)
@@ -242,6 +244,8 @@ class _Lowering:
                 operands.append(self.writer.argument(given[name]))
             elif name == "draw":
                 operands.append(self._draw(tree, tree.per))
+            elif name == "id":
+                operands.append(self.scope.identity())
             else:
                 operands.append(self.writer.operand(Name(name)))
         name = _name_of(tree)
