@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from graphfx.errors import GraphError, LimitError, Problem
+from graphfx.graph.check_clusters import check_clusters
 from graphfx.graph.check_document import read_graph, starting_from
 from graphfx.graph.check_nodes import why_uniform
 from graphfx.graph.check_values import default_value
@@ -184,6 +185,8 @@ def _whole(graph: Graph, checking: Checking, overrides: Mapping[str, Any] | None
     flattener = Flattener(checking)
     flattener.flatten(Wiring(checking).instance(graph, "", Substitution(checking, given, nodes=graph.nodes), {}), Gate())
     flattener.find_surfaces()
+    clusters = [name for name, (attribute, _) in graph.merged.items() if attribute.type == "cluster"]
+    check_clusters(checking, flattener.nodes, clusters)
     return flattener.nodes
 
 

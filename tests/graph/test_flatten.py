@@ -219,9 +219,11 @@ def test_everything_flattens(library: Library) -> None:
     found = flatten(load_document(GOOD / "everything.json"), library)
     assert list(found.nodes) == [
         "sky", "fall/vortex", "fall/second", "fall/push_twice/both/push", "fall/push_twice/both/push_once/once", "fall/set",
-        "fall/push", "halves_of_sky/a", "halves_of_sky/b", "halves_of_sky/preview", "alone", "view", "frames"]
+        "fall/floor", "fall/comet", "fall/fade", "fall/kill", "fall/recycle", "fall/cling", "fall/push", "halves_of_sky/a",
+        "halves_of_sky/b", "halves_of_sky/preview", "burst", "sparks", "trail", "low", "ball", "alone", "view", "frames"]
     assert isinstance(found.nodes["fall/second"].arguments["center"], Keys)
-    assert list(found.nodes["sky"].sets) == ["velocity", "position", "color", "radius", "opacity"]
+    assert list(found.nodes["sky"].sets) == [
+        "velocity", "position", "color", "radius", "opacity", "mass", "heat", "normal"]
 
 
 def test_what_is_the_same_for_all_is_computed_at_once(library: Library) -> None:

@@ -154,6 +154,20 @@ def test_clusters_are_counted_when_the_graph_is_flat(library: Library) -> None:
     assert found.arguments["life"].per == "flicker"  # type: ignore[attr-defined]
 
 
+def test_all_particles_of_a_stream_must_be_in_the_cluster(library: Library) -> None:
+    """A value that names a cluster is told of each emitter upstream that has none of that name, spawns between or not."""
+    draw = {"rand": [1, 2], "per": "flicker"}
+    nodes = {"fire": {"type": "emit", "clusters": {"flicker": {"count": 3}}, "set": {"mass": {"expr": "flicker"}}},
+             "rain": {"type": "emit", "life": draw}, "trail": {"type": "spawn", "from": ["fire"], "rate": 1, "life": draw},
+             "both": {"type": "spiral", "from": ["trail", "rain"]},
+             "turn": {"type": "spiral", "from": "both", "speed": draw},
+             "some": {"type": "spiral", "from": "fire", "only": {"expr": "flicker == 2"}}}
+    told = check(document_of({"graphfx": 1, "nodes": nodes}), library)
+    message = "the particles of 'rain' are in no cluster 'flicker'; write \"clusters\": {\"flicker\": {\"count\": ...}} there too"
+    assert [(problem.path, problem.message) for problem in told] == [
+        ("nodes.rain.life", message), ("nodes.turn.speed", message)]
+
+
 def test_what_follows_the_nearest_seed_comes_after_the_position(library: Library) -> None:
     """A draw for each cluster of the nearest seed waits for the position; clusters in turn wait for nothing."""
     sets = {"radius": {"rand": [1, 2], "per": "a"}, "mass": {"expr": "a"}, "opacity": {"expr": "b"}, "position": [1, 2, 3]}
