@@ -13,8 +13,6 @@ from graphfx.geometry.tables import BOXES, LEAVES, LINKS, SCALE
 from graphfx.math import Vec3, absolute, cross, dot, maximum, minimum, where
 from graphfx.math.tables import entry, link
 
-INFINITY = float("inf")
-
 
 def leaf_corner_a(mesh: Any, place: int) -> Any:
     """The first corner of the face at a place of the tree."""
@@ -193,16 +191,35 @@ def square_between(a: Any, b: Any) -> Any:
     return dot(a - b, a - b)
 
 
+def box_square(mesh: Any, node: int, position: Any) -> Any:
+    """The square of the distance from a point to a box of the tree; 0 inside."""
+    x = maximum(absolute(position.x - entry(mesh, BOXES, node, 0)) - entry(mesh, BOXES, node, 3), 0.0)
+    y = maximum(absolute(position.y - entry(mesh, BOXES, node, 1)) - entry(mesh, BOXES, node, 4), 0.0)
+    z = maximum(absolute(position.z - entry(mesh, BOXES, node, 2)) - entry(mesh, BOXES, node, 5), 0.0)
+    return x * x + y * y + z * z
+
+
+def likely_leaf(mesh: Any, position: Any) -> int:
+    """The leaf that is reached by always going down to the nearer box."""
+    node = 0
+    while link(mesh, LINKS, node, 2) == 0:
+        left = node + 1
+        right = link(mesh, LINKS, left, 0)
+        node = right if box_square(mesh, right, position) < box_square(mesh, left, position) else left
+    return node
+
+
 def nearest(mesh: Any, position: Any) -> Any:
-    """(point, normal): the point of a mesh's surface that is nearest to a point, and the normal of the face there."""
-    least = absolute(position.x) * 0.0 + INFINITY
-    found, at = position, 0
+    """(point, normal): the point of a mesh's surface that is nearest to a point, and the normal of the face there.
+
+    A first guess keeps the walk short: boxes farther away than what was found are passed over.
+    """
+    at = link(mesh, LINKS, likely_leaf(mesh, position), 1)
+    found = nearest_on_face(mesh, at, position)
+    least = square_between(found, position)
     node, count = 0, link(mesh, LINKS, 0, 0)
     while node < count:
-        x = maximum(absolute(position.x - entry(mesh, BOXES, node, 0)) - entry(mesh, BOXES, node, 3), 0.0)
-        y = maximum(absolute(position.y - entry(mesh, BOXES, node, 1)) - entry(mesh, BOXES, node, 4), 0.0)
-        z = maximum(absolute(position.z - entry(mesh, BOXES, node, 2)) - entry(mesh, BOXES, node, 5), 0.0)
-        if x * x + y * y + z * z >= least:
+        if box_square(mesh, node, position) >= least:
             node = link(mesh, LINKS, node, 0)
         else:
             first = link(mesh, LINKS, node, 1)
