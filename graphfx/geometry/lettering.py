@@ -157,14 +157,29 @@ def _joined(outer: np.ndarray, holes: list[np.ndarray]) -> tuple[np.ndarray, lis
 def _extruded(points: np.ndarray, ends: list[int], depth: float, fill: Any) -> Mesh:
     """Return a flat shape with a thickness: front, back, and a wall along each ring."""
     count = len(points)
-    front = fill(np.ascontiguousarray(points, np.float64), np.array(ends, np.uint32)).astype(np.int64).reshape(-1, 3)
-    a, b, c = np.moveaxis(points[front], 1, 0)
-    turned = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0
-    front[turned] = front[turned][:, ::-1]
     number = np.arange(count)
     after = number + 1
     for begin, end in zip([0, *ends], ends, strict=False):
         after[end - 1] = begin
+    front = _filled(points, ends, after, fill)
     walls = [np.stack([number, number + count, after + count], axis=1), np.stack([number, after + count, after], axis=1)]
     vertices = np.concatenate([np.column_stack([points, np.full(count, z)]) for z in (depth / 2, -depth / 2)])
     return Mesh(vertices, np.concatenate([front, front[:, ::-1] + count, *walls]))
+
+
+def _filled(points: np.ndarray, ends: list[int], after: np.ndarray, fill: Any) -> np.ndarray:
+    """Return the triangles of a flat shape, each edge of its rings in one of them.
+
+    The filler drops points that lie on a line with others, by which a wall would come to lack its front. Bent a little,
+    no three points are on a line.
+    """
+    for bend in (0.0, 1e-9, 1e-7, 1e-5):
+        bent = points + bend * points[:, ::-1] ** 2
+        found = fill(np.ascontiguousarray(bent, np.float64), np.array(ends, np.uint32)).astype(np.int64).reshape(-1, 3)
+        a, b, c = np.moveaxis(bent[found], 1, 0)
+        turned = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0] < 0
+        found[turned] = found[turned][:, ::-1]
+        edges = {(int(face[k]), int(face[(k + 1) % 3])) for face in found for k in range(3)}
+        if all((k, int(next_)) in edges for k, next_ in enumerate(after)):
+            break
+    return found
