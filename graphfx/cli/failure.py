@@ -6,6 +6,7 @@ import os
 import sys
 import traceback
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -47,10 +48,21 @@ def carry_out(command: click.Command, arguments: list[str]) -> int:
 def show(problems: Iterable[Problem]) -> None:
     """Print problems, one after another."""
     for problem in problems:
-        click.echo(str(problem), err=True)
+        place = problem.location
+        click.echo(str(replace(problem, location=replace(place, file=from_here(place.file)))), err=True)
+
+
+def from_here(file: str) -> str:
+    """Return a file as one would type it here: relative where it lies below the current folder."""
+    path = Path(file)
+    return str(path.relative_to(Path.cwd())) if path.is_absolute() and path.is_relative_to(Path.cwd()) else file
 
 
 def _tell(error: Exception) -> int:
+    if not isinstance(error, GraphfxError):
+        from graphfx.node.mistakes import in_a_node
+
+        error = in_a_node(error) or error
     if isinstance(error, GraphfxError):
         show(error.problems)
         return error.exit_code

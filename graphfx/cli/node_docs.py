@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import json
 from itertools import groupby
-from pathlib import Path
 from typing import Any
 
 from graphfx.authoring.sample import sample
+from graphfx.cli.failure import from_here
 from graphfx.graph.document import document_of
 from graphfx.graph.format import canonical
 from graphfx.node import Library, NodeType, Parameter
@@ -48,7 +48,7 @@ def facts(node_type: NodeType) -> dict[str, str]:
         "gives": ", ".join(node_type.result) if node_type.kind == "values" else "",
         "the_engine": treatment(node_type.role),
         "left_out_when": node_type.neutral,
-        "declared_in": shown_path(node_type.location.file),
+        "declared_in": from_here(node_type.location.file),
     }
 
 
@@ -75,12 +75,6 @@ def mentions(word: str, library: Library) -> list[str]:
             ranks[name] = rank
     width = max(map(len, ranks), default=0)
     return [f"{name:{width}}  {first_line(library[name])}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
-
-
-def shown_path(file: str) -> str:
-    """Return a file's path as one would type it here: relative where it lies below the current folder."""
-    path = Path(file)
-    return str(path.relative_to(Path.cwd())) if path.is_relative_to(Path.cwd()) else file
 
 
 def role(node_type: NodeType) -> str:

@@ -1,7 +1,8 @@
 """Declare node types and find them."""
 
-from graphfx.node.declare import geometry, language, operator, param, selector, value
+from graphfx.node.declare import geometry, language, operator, selector, value
 from graphfx.node.library import Library, bundled_root, library_roots
+from graphfx.node.signature import param
 from graphfx.node.types import (
     ATTRIBUTES,
     COMMON_KEYS,

@@ -4,27 +4,20 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphfx.errors import Location, NodeError, Problem, suggestion
-from graphfx.math import Vec3
-from graphfx.node.types import (
-    ATTRIBUTES,
-    COMMON_KEYS,
-    DERIVED_ATTRIBUTES,
-    NUMERIC_TYPES,
-    OTHER_TYPES,
-    RESERVED,
-    WAY,
-    NodeType,
-    Parameter,
+from graphfx.node.signature import (
+    ParameterMark,
+    check_read,
+    check_result_names,
+    check_results,
+    read_parameter,
+    result_types,
 )
-
-_ANNOTATIONS = {float: "float", int: "int", bool: "bool", str: "string", Vec3: "vec3"}
-_BY_TEXT = {"float": "float", "int": "int", "bool": "bool", "str": "string", "Vec3": "vec3", "Mesh": "mesh"}
-
+from graphfx.node.source import line_of_argument, wrong_return
+from graphfx.node.types import ATTRIBUTES, DERIVED_ATTRIBUTES, RESERVED, WAY, NodeType, Parameter
 
 RESPONSE = (
     Parameter("resilience", "float", 0.5, "", 0.0, 1.0, (), "Share of the speed across the surface that a bounce gives back."),
@@ -42,92 +35,6 @@ TRANSFORM = (
 """Parameters that every geometry has besides its function's: where it stands. They may change with time."""
 
 
-@dataclass(frozen=True)
-class ParameterMark:
-    """What `param(...)` leaves in a signature until the decorator reads it."""
-
-    default: Any
-    unit: str
-    min: float | None
-    max: float | None
-    type: str
-    choices: tuple[str, ...]
-    doc: str
-    required: bool
-
-
-def param(
-    default: Any = None,
-    *,
-    doc: str,
-    unit: str = "",
-    min: float | None = None,
-    max: float | None = None,
-    type: str = "",
-    direction: bool = False,
-    choices: tuple[str, ...] = (),
-    required: bool = False,
-) -> Any:
-    """Mark an argument as a parameter.
-
-    `type` names a type where the annotation is not enough ("color", "path", "stream", ...);
-    `direction=True` has the engine hand the function a unit vector; `required=True` has no default.
-    """
-    return ParameterMark(default, unit, min, max, "direction" if direction else type, choices, doc, required)
-
-
-def _parameter(name: str, argument: inspect.Parameter, fail: Callable[[str], NodeError], language: bool) -> Parameter:
-    """Read a parameter; only one of the language may have no default, where the engine finds it."""
-    mark = argument.default
-    kind = mark.type or _type_name(argument.annotation)
-    if kind not in NUMERIC_TYPES and kind not in OTHER_TYPES:
-        raise fail(f"parameter '{name}' has the type {argument.annotation!r}; annotate it float, int, bool, str or Vec3, "
-                   f"or say type= one of {', '.join((*NUMERIC_TYPES, *OTHER_TYPES))}")
-    if name in COMMON_KEYS:
-        raise fail(f"parameter '{name}' has the name of a key that every node may carry; choose another")
-    if not mark.doc or not mark.doc.strip().endswith("."):
-        raise fail(f"parameter '{name}' needs doc= one sentence that ends with a full stop")
-    default = mark.default
-    if kind in NUMERIC_TYPES and not mark.required and not (language and default is None):
-        size = NUMERIC_TYPES[kind]
-        if size == 3 and (not isinstance(default, tuple) or len(default) != 3):
-            raise fail(f"parameter '{name}' needs a default of three numbers, such as (0, 0, 0)")
-        default = tuple(float(v) for v in default) if size == 3 else default
-        for value in default if size == 3 else (default,):
-            low, high = mark.min, mark.max
-            if kind != "bool" and ((low is not None and value < low) or (high is not None and value > high)):
-                raise fail(f"parameter '{name}' has the default {default}, outside its own range {low} to {high}")
-    return Parameter(name, kind, default, mark.unit, mark.min, mark.max, mark.choices, mark.doc.strip(), mark.required)
-
-
-def _type_name(annotation: Any) -> str:
-    if isinstance(annotation, str):
-        return _BY_TEXT.get(annotation, annotation)
-    if getattr(annotation, "__name__", "") == "Mesh":
-        return "mesh"
-    return _ANNOTATIONS.get(annotation, str(annotation))
-
-
-def _result_types(annotation: Any) -> tuple[str, ...]:
-    text = annotation if isinstance(annotation, str) else getattr(annotation, "__name__", str(annotation))
-    if not isinstance(annotation, str) and getattr(annotation, "__args__", None):
-        return tuple(_type_name(part) for part in annotation.__args__)
-    if text.startswith("tuple["):
-        return tuple(_type_name(part.strip()) for part in text[6:-1].split(","))
-    if annotation in (None, "None", inspect.Signature.empty):
-        return ()
-    return (_type_name(annotation),)
-
-
-def _check_results(names: tuple[str, ...], types: tuple[str, ...], fail: Callable[[str], NodeError]) -> None:
-    """Raise `NodeError` unless each of several results has a name."""
-    if len(names) != len(types):
-        raise fail(f"it gives {len(types)} results, so @value(results=...) needs a name for each, and has {len(names)}")
-    for name in names:
-        if not name.isidentifier() or name in ("x", "y", "z") or names.count(name) > 1:
-            raise fail(f"a result cannot be called '{name}'; names are words, each once, and not x, y or z")
-
-
 def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any = (), language: bool = False,
             neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None, branches: bool = False,
             results: tuple[str, ...] = ()) -> NodeType:
@@ -136,37 +43,33 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     location = Location(str(source), function.__code__.co_firstlineno)
     name = function.__name__
 
-    def fail(message: str, *notes: str) -> NodeError:
-        return NodeError(Problem(message, location, name, notes))
+    def fail(message: str, *notes: str, at: str = "", line: int = 0) -> NodeError:
+        line = line_of_argument(function, at) if at else line
+        return NodeError(Problem(message, Location(str(source), line or location.line), name, notes))
 
     if source.stem != name:
         raise fail(f"the file {source.name} must be named {name}.py after its function, or the function {source.stem}")
-    doc = inspect.getdoc(inspect.getmodule(function)) or inspect.getdoc(function) or ""
+    doc = inspect.getdoc(inspect.getmodule(function)) or ""
     if not doc:
         raise fail("a node needs a docstring at the top of its file: its formula, and its source")
     signature = inspect.signature(function)
+    known = (*RESERVED, *WAY) if role == "surface" else RESERVED
     reads, reserved, parameters = [], [], {}
     for argument in signature.parameters.values():
         if isinstance(argument.default, ParameterMark):
-            parameters[argument.name] = _parameter(argument.name, argument, fail, language)
-        elif argument.name in RESERVED or (role == "surface" and argument.name in WAY):
-            reserved.append(argument.name)
-        elif argument.name in ATTRIBUTES or argument.name in DERIVED_ATTRIBUTES:
-            reads.append(argument.name)
-        else:
-            known = (*ATTRIBUTES, *DERIVED_ATTRIBUTES, *RESERVED)
-            raise fail(f"argument '{argument.name}' is no attribute and has no param(...)."
-                       + suggestion(argument.name, known), f"attributes: {', '.join((*ATTRIBUTES, *DERIVED_ATTRIBUTES))}",
-                       f"given by the engine: {', '.join(RESERVED)}")
+            parameters[argument.name] = read_parameter(argument, fail, language)
+            continue
+        check_read(argument, known, fail)
+        (reads if argument.name in ATTRIBUTES | DERIVED_ATTRIBUTES else reserved).append(argument.name)
     writes = (writes,) if isinstance(writes, str) else tuple(writes)
-    for attribute in writes:
-        if attribute not in ATTRIBUTES:
-            raise fail(f"it writes '{attribute}', which is no attribute." + suggestion(attribute, ATTRIBUTES))
-    result = _result_types(signature.return_annotation)
-    if not language and not result:
-        raise fail("the function needs a return annotation: float, bool, Vec3 or tuple[...] of them")
+    result = result_types(signature.return_annotation)
+    if not language:
+        check_results(role, writes, result, fail)
+        message, line = wrong_return(function, len(result))
+        if message:
+            raise fail(message, line=line)
     if role == "value" and (len(result) > 1 or results):
-        _check_results(results, result, fail)
+        check_result_names(results, result, fail)
     if role == "surface":
         parameters |= {parameter.name: parameter for parameter in RESPONSE}
     elif role == "geometry":
@@ -175,8 +78,15 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
                     result, writes, neutral, exact_if, branches, language, doc, location, linear, tuple(results))
 
 
+_OPTIONS = ("writes", "neutral", "exact_if", "linear", "branches", "results")
+
+
 def _decorator(kind: str, role: str, **fixed: Any) -> Callable[..., Any]:
     def decorator(function: Callable[..., Any] | None = None, **options: Any) -> Any:
+        for name in options:
+            if name not in _OPTIONS or name in fixed:
+                raise TypeError(f"{role} takes no option '{name}'." + suggestion(name, _OPTIONS))
+
         def attach(function: Callable[..., Any]) -> Callable[..., Any]:
             function.node_type = declare(function, kind, role, **fixed, **options)  # type: ignore[attr-defined]
             return function

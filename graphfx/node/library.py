@@ -10,12 +10,12 @@ import hashlib
 import importlib.util
 import os
 import sys
-import traceback
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
 
 from graphfx.errors import Location, NodeError, Problem
+from graphfx.node.mistakes import PREFIX, in_file
 from graphfx.node.types import NodeType
 
 KINDS = ("emitters", "selectors", "operators", "renders", "values", "geometry")
@@ -84,7 +84,7 @@ class Library(Mapping[str, NodeType]):
 
 def _execute(file: Path, kind: str) -> ModuleType:
     root = hashlib.blake2b(str(file.parent.resolve()).encode(), digest_size=4).hexdigest()
-    name = f"graphfx_nodes.{root}.{kind}.{file.stem}"
+    name = f"{PREFIX}{root}.{kind}.{file.stem}"
     spec = importlib.util.spec_from_file_location(name, file)
     assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
@@ -93,11 +93,6 @@ def _execute(file: Path, kind: str) -> ModuleType:
         spec.loader.exec_module(module)
     except NodeError:
         raise
-    except SyntaxError as error:
-        place = Location(str(file), error.lineno or 0, error.offset or 0)
-        raise NodeError(Problem(f"not Python: {error.msg}", place, file.stem)) from error
     except Exception as error:
-        own = [entry for entry in traceback.extract_tb(error.__traceback__) if entry.filename == str(file)]
-        line = own[-1].lineno or 0 if own else 0
-        raise NodeError(Problem(f"{type(error).__name__}: {error}", Location(str(file), line), file.stem)) from error
+        raise in_file(error, file) from error
     return module
