@@ -26,7 +26,8 @@ WORDS = st.sampled_from([
     "camera", "push", "above", "param", "expr", "keys", "ramp", "rand", "per", "over", "gauss", "in_box", "min", "max",
     "default", "float", "vec3",
     "sky", "fall", "fall.a", "infinity", "#ff0000", "age + 1", "position", "param.wind", "groups/halves.json", "halves",
-    "x-note", "hit", ""])
+    "x-note", "hit", "", "clusters", "flicker", "count", "by", "nearest", "cluster", "all", "any", "not", "into", "inherit",
+    "birth", "tail.radius", "heat", "mesh", "ball", "within", "on_ring", "spline", "interpolation", "spot.normal", "parent.heat"])
 LEAVES = WORDS | st.none() | st.booleans() | st.integers(-3, 3) | st.floats() | st.text(max_size=6)
 PARTS = st.recursive(LEAVES, lambda part: st.lists(part, max_size=4) | st.dictionaries(WORDS, part, max_size=4), max_leaves=12)
 GENEROUS = settings(deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
@@ -65,7 +66,7 @@ def test_random_documents(data: dict[str, Any], library: Library) -> None:
 @GENEROUS
 @given(nodes=st.dictionaries(st.sampled_from(["sky", "fall", "a", "b"]), st.dictionaries(WORDS, PARTS, max_size=5).map(
     lambda node: {"type": "stack"} | node)), kind=st.sampled_from(["emit", "stack", "vortex", "push", "image", "camera",
-    "set", "halves", "above"]))
+    "set", "halves", "above", "spawn", "fade", "kill", "recycle", "within", "cling", "ball"]))
 def test_random_nodes(nodes: dict[str, Any], kind: str, library: Library) -> None:
     """Random keys on nodes of every type."""
     nodes = {name: node | {"type": kind} for name, node in nodes.items()}
@@ -126,3 +127,49 @@ def test_streams_that_merge_and_merge(library: Library) -> None:
         "ops": []} for index in range(1, 60)}
     nodes["last"] = {"type": "spiral", "from": "n59"}
     assert flatten(document_of({"graphfx": 1, "nodes": nodes}), library).nodes["last"].sources == ("n0", "m")
+
+
+def messages(data: dict[str, Any], library: Library) -> list[str]:
+    return [problem.message for problem in check(document_of({"graphfx": 1, **data}), library)]
+
+
+def test_thousands_of_conditions(library: Library) -> None:
+    """A list of many conditions is one balanced tree; far too many, or a nest too deep, are refused."""
+    sky = {"sky": {"type": "emit"}, "high": {"type": "above"}}
+    for only, told in (({"any": ["high"] * 2500}, ""), ({"any": ["high"] * 6000}, "the limits are"),
+                       (json.loads('{"not": ' * 50 + '"high"' + "}" * 50), "")):
+        found = messages({"nodes": {**sky, "v": {"type": "spiral", "from": "sky", "only": only}}}, library)
+        assert (told in found[0]) if told else found == []
+
+
+def test_thousands_of_attributes(library: Library) -> None:
+    """Each read by the next, in either order of the document; a circle of them is told once."""
+    for step, last in ((1, {"expr": "1"}), (-1, {"expr": "1"}), (1, {"expr": "a1999"})):
+        sets = {"a0": last} | {f"a{k}": {"expr": f"a{k - 1}"} for k in range(1, 2000)}
+        data = {"attributes": {name: {"type": "float"} for name in sets}, "nodes": {"sky": {
+            "type": "emit", "set": dict(list(sets.items())[::step])}}}
+        found = messages(data, library)
+        assert found == [] if last["expr"] == "1" else len(found) == 1 and "in a circle" in found[0]
+
+
+def test_thousands_of_selectors_clusters_and_spawns(library: Library) -> None:
+    """Long chains of each are read; a circle through selectors and spawns is told, one through `into` is none."""
+    count = 2000
+    nodes: dict[str, Any] = {"n0": {"type": "emit", "clusters": {f"c{k}": {"count": 2} for k in range(count)}}}
+    for index in range(1, count):
+        kinds: list[dict[str, Any]] = [{"type": "above"}, {"type": "spawn", "when": "death", "into": "n0"},
+                                       {"type": "spiral", "speed": {"rand": [0, 1], "per": f"c{index}"}}]
+        nodes[f"n{index}"] = kinds[index % 3] | {"from": f"n{index - 1}"}
+    assert messages({"nodes": nodes}, library) == []
+    ring = {f"n{index}": [{"type": "above"}, {"type": "spawn", "rate": 1}][index % 2] | {"from": f"n{(index + 1) % 1000}"}
+            for index in range(1000)}
+    found = messages({"nodes": ring}, library)
+    assert len(found) == 1 and "in a circle" in found[0]
+
+
+def test_many_surfaces_of_many_hits(library: Library) -> None:
+    """A stack of very many surfaces, named by very many operators, is refused or flattened soon."""
+    floors = [{"type": "bounce_plane", "id": f"f{k}"} for k in range(1000)]
+    nodes: dict[str, Any] = {"sky": {"type": "emit"}, "s": {"type": "stack", "from": "sky", "ops": floors}}
+    nodes |= {f"k{k}": {"type": "kill", "from": "s", "when": {"hit": ["s", "s/f3"]}} for k in range(300)}
+    assert messages({"nodes": nodes}, library) == []
