@@ -18,7 +18,9 @@ MOST = 1 << 30
 
 @dataclass
 class Births:
-    """The births of one emitter. `made` is the integral of the rate so far; the k-th particle is born as it passes k.
+    """The births of one emitter: those of its rate, and those made at once as it begins and again after `every` seconds.
+
+    `made` is the integral of the rate so far; the k-th particle is born as it passes k.
 
     For a constant rate that instant is begin + k / rate whatever the frames are, so the 0th is born as the emitter
     begins. A rate that changes is taken at the middle of each interval; `following` is the number of the next birth.
@@ -33,16 +35,39 @@ class Births:
         """Note when the emitter begins and ends."""
         during = self.plan.node.during or (-math.inf, math.inf)
         self.begin, self.finish = max(self.start, during[0]), during[1]
-        self.rate = self.plan.node.arguments["rate"]
+        node = self.plan.node
+        rated = "rate" in node.given or "count" not in node.given
+        self.rate = node.arguments["rate"] if rated else Literal("float", value=0.0)
 
     def at_start(self) -> np.ndarray:
-        """Return the times of the particles born at the very beginning: the first, if its time is the start."""
+        """Return the times of the particles born at the very beginning: a burst, and the first of a rate."""
         rate = float(plain_value(self.rate, self.start))
-        self.following = 1 if rate > 0 and self.begin == self.start and self.finish > self.start else 0
-        return np.full(self.following, self.start)
+        here = self.begin == self.start and self.finish > self.start
+        self.following = 1 if rate > 0 and here else 0
+        return np.full(self.following + (self._count(self.start) if here else 0), self.start)
 
     def within(self, interval: Interval) -> np.ndarray:
         """Return the times of birth in (start, end], in order [s]."""
+        times = np.concatenate([self._bursts(interval), self._flow(interval)])
+        return times[np.argsort(times, kind="stable")]
+
+    def _count(self, time: float, frame: int = 0) -> int:
+        return int(plain_value(self.plan.node.arguments["count"], time, frame))
+
+    def _bursts(self, interval: Interval) -> np.ndarray:
+        """Return the times of what is made at once in (start, end]: `count` at begin + n every."""
+        every = float(plain_value(self.plan.node.arguments["every"]))
+        first, last = interval.start - self.begin, min(interval.end, self.finish) - self.begin
+        if last < 0 or (first >= 0 and every == math.inf):
+            return np.zeros(0)
+        begin = 0 if first < 0 else math.floor(first / every) + 1
+        end = 0 if every == math.inf else math.floor(last / every)
+        self._numbers(begin, end)
+        times = [self.begin + (n * every if n else 0.0) for n in range(begin, end + 1)]
+        made = [np.full(self._count(time, interval.frame), time) for time in times if interval.start < time <= interval.end]
+        return np.concatenate(made) if made else np.zeros(0)
+
+    def _flow(self, interval: Interval) -> np.ndarray:
         low, high = max(interval.start, self.begin), min(interval.end, self.finish)
         if high < low:
             return np.zeros(0)

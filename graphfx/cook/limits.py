@@ -40,13 +40,18 @@ def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem |
     begin, end = emitter.node.during or (-time.preroll, math.inf)
     span = max(min(end, (time.last - time.first) / time.fps) - max(begin, -time.preroll), 0.0)
     life = float(emitter.constants.get("life", span))
-    count = _greatest(emitter.node.arguments["rate"]) * min(span, life)
+    given = emitter.node
+    if given.node_type.role != "emit":
+        return None
+    rate = _greatest(given.arguments["rate"]) if "rate" in given.given or "count" not in given.given else 0.0
+    every = _greatest(given.arguments["every"])
+    count = rate * min(span, life) + _greatest(given.arguments["count"]) * (1 + min(span, life) // every)
     if count <= limits.particles:
         return None
     bytes_each = sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
     return Problem(
         f"about {count:,.0f} particles would be alive at once, and the limit is {limits.particles:,}; "
-        "lower the rate or the life, or allow more with --limit-particles",
+        "lower the rate, the count or the life, or allow more with --limit-particles",
         emitter.node.location,
         f"nodes.{emitter.path}",
         (f"they would take {count * bytes_each / 2**30:,.1f} GiB",),

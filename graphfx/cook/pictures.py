@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from graphfx.cook.simulate import Particles, Simulation
+from graphfx.cook.particles import Particles, padded
+from graphfx.cook.simulate import Simulation
 from graphfx.graph.flat import FlatNode
-from graphfx.plan.make import ImagePlan, plain_value
+from graphfx.plan.make import Drawn, ImagePlan, plain_value
 from graphfx.render.camera import Camera
 from graphfx.render.film import Film
 from graphfx.render.renderer import render
@@ -28,19 +30,42 @@ def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> 
     shutter = float(image.value("shutter", time, frame))
     opening = max(time - shutter / simulation.clock.fps, simulation.clock.start)
     reach = shutter / simulation.plan.shutter if simulation.plan.shutter > 0 else 0.0
-    streams = [streaks_of(simulation.particles[path], look, time, opening, reach) for path, look in image.streams]
+    streams = [streaks_of(_chosen(simulation, drawn, frame), drawn.looks, time, opening, reach) for drawn in image.streams]
     width, height = (int(number) for number in image.value("size"))
     return render(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
 
 
-def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening: float, reach: float = 1.0) -> Streaks:
-    """Return the streaks of one emitter's particles over the shutter from `opening` to `time`.
+@dataclass
+class Chosen:
+    """Particles that are drawn: all, or the rows that a selection passes."""
+
+    particles: Particles
+    rows: np.ndarray | None = None
+
+
+def _chosen(simulation: Simulation, drawn: Drawn, frame: int) -> Chosen:
+    particles = simulation.particles[drawn.path]
+    if drawn.selection is None:
+        return Chosen(particles)
+    count = particles.store.count
+    selected = padded(np.zeros(count), np.uint8)
+    given = {"selected": (selected,)}
+    rows = np.arange(count)
+    simulation.programs.run(drawn.selection, particles, simulation.interval, rows, by_place=given)
+    return Chosen(particles, np.flatnonzero(selected[:count]))
+
+
+def streaks_of(chosen: Chosen, look: dict[str, Any], time: float, opening: float, reach: float = 1.0) -> Streaks:
+    """Return the streaks of particles over the shutter from `opening` to `time`.
 
     `reach` is the length of this shutter in those of the longest, at whose opening tails are taken.
     """
+    particles, shown = chosen.particles, chosen.rows
     store = particles.store
     share = _shares(particles, time, opening)
-    shown = None if share is None else np.flatnonzero(share > 0)
+    if share is not None:
+        drawn = np.flatnonzero(share > 0)
+        shown = drawn if shown is None else np.intersect1d(drawn, shown)
 
     def column(name: str) -> Any:
         value = particles.value(name)
@@ -48,6 +73,9 @@ def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening:
             return value
         arrays = value if shown is None else tuple(array[shown] for array in value)
         return np.stack([np.asarray(array, np.float32) for array in arrays]) if len(arrays) == 3 else arrays[0]
+
+    def at_tail(name: str) -> Any:
+        return column(f"tail.{name}") if f"tail.{name}" in store.columns else None
 
     head = column("position")
     if not isinstance(head, np.ndarray):
@@ -61,6 +89,9 @@ def streaks_of(particles: Particles, look: dict[str, Any], time: float, opening:
         head_radius=column("radius"),
         head_color=column("color"),
         head_opacity=column("opacity"),
+        tail_radius=at_tail("radius"),
+        tail_color=at_tail("color"),
+        tail_opacity=at_tail("opacity"),
         share=1.0 if share is None or shown is None else share[shown].astype(np.float32),
         **look,
     )
@@ -70,13 +101,14 @@ def _shares(particles: Particles, time: float, opening: float) -> np.ndarray | N
     """Return the part of the shutter for which each particle lived, or None if that is 1 for all."""
     store = particles.store
     length = time - opening
-    newborn = particles.born[particles.born_at > opening] if length > 0 else particles.born[:0]
+    late = particles.born_at > opening if length > 0 else particles.born_at[:0] > opening
+    newborn = particles.born[: len(late)][late]
     if not len(newborn) and not len(particles.dying):
         return None
     share = np.ones(store.count)
     if length > 0:
-        share[newborn] = (time - particles.born_at[particles.born_at > opening]) / length
-    if len(particles.dying) and particles.plan.mortal:
-        after_death = (time - particles.death()[particles.dying]) / length if length > 0 else np.ones(len(particles.dying))
+        share[newborn] = (time - particles.born_at[: len(late)][late]) / length
+    if len(particles.dying):
+        after_death = (time - particles.ended_at) / length if length > 0 else np.ones(len(particles.dying))
         share[particles.dying] = np.maximum(share[particles.dying] - after_death, 0.0)
     return share

@@ -201,6 +201,26 @@ read_word, read_id = _word_reader(1), _word_reader(2)
 
 
 @intrinsic(prefer_literal=True)
+def write_word(typing: Any, model: Any, scratch: Any, operands: Any, place: Any, lane: Any, on: Any, value: Any) -> Any:
+    """Write whole reals from 0 to 2**31 - 1 as words where `on`; lanes of 64 bits take them as their low halves."""
+    real, first = model.instance_type, _literal(place)
+    if first is None:
+        return None
+    word = Word(real.width).llvm
+
+    def generate(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
+        index = builder.add(_entry(builder, values[2], first), _scaled(builder, values[4], real, 1))
+        pointer = _component(builder, values[1], index, 0, real, real.llvm_integer)
+        whole = builder.fptosi(values[6], word)
+        bits = whole if real.single else builder.zext(whole, real.llvm_integer)
+        old = builder.load(pointer, align=_bytes(real))
+        builder.store(builder.select(values[5], bits, old), pointer, align=_bytes(real))
+        return context.get_dummy_value()
+
+    return types.void(model, scratch, operands, place, types.int64, on, real), generate
+
+
+@intrinsic(prefer_literal=True)
 def read_number(typing: Any, operands: Any, place: Any) -> Any:
     """Return operands[place] itself."""
     first = _literal(place)

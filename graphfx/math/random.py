@@ -26,7 +26,7 @@ SPAWN_TAG = 0x6E777073  # "spwn": the fourth word of the counter that makes an i
 SPAWNED = 1 << 63  # set in the id of every spawned particle, never in an ordinal of birth
 
 
-def philox4x32(counter: tuple[Any, Any, Any, Any], key: tuple[int, int]) -> tuple[Any, Any, Any, Any]:
+def philox4x32(counter: tuple[Any, Any, Any, Any], key: tuple[Any, Any]) -> tuple[Any, Any, Any, Any]:
     """Four random words of 32 bits from a counter of four such words and a key of two.
 
     Each round multiplies two words into 64 bits and mixes the halves with the rest and the key:
@@ -37,7 +37,7 @@ def philox4x32(counter: tuple[Any, Any, Any, Any], key: tuple[int, int]) -> tupl
     four words. Python integers give Python integers; arrays give arrays of uint64.
     """
     a, b, c, d = (word_of(word) for word in counter)
-    first, second = (int(word) & WORD for word in key)
+    first, second = (word_of(word) for word in key)
     for _ in range(ROUNDS):
         product0, product1 = a * PHILOX_MULTIPLIERS[0], c * PHILOX_MULTIPLIERS[1]
         a, b, c, d = (product1 >> 32) ^ b ^ first, product1 & WORD, (product0 >> 32) ^ d ^ second, product0 & WORD
@@ -88,13 +88,13 @@ def encoded(part: int | str) -> bytes:
     return kind + len(content).to_bytes(8, "little") + content
 
 
-def spawned_id(parent: Any, life: Any, event: int, number: int) -> Any:
+def spawned_id(parent: Any, life: Any, event: Any, number: Any) -> Any:
     """The id, of 64 bits, of copy `number` among the particles spawned by an event of a parent.
 
     A particle that its emitter bore has its ordinal of birth for id. This is a hash: Philox with the
     counter (parent low, parent high, life, a tag) and the key (event, number), with the highest bit set, so
     that it is no ordinal; among a million spawned particles the chance that two share an id is 5e-8.
-    life, event and number count modulo 2**32. Arrays of uint64 parents give arrays.
+    life, event and number count modulo 2**32. Arrays of uint64 give arrays.
     """
     low, high, _, _ = philox4x32(counter_of(parent, life, SPAWN_TAG), (event, number))
     return low | high << 32 | SPAWNED

@@ -1,46 +1,131 @@
-"""The program of births: what an emitter's `set` gives a new particle."""
+"""The programs of births: what a maker gives a new particle, and what it becomes in a new life."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 from graphfx.graph.flat import FlatNode
-from graphfx.motion import basic
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES
+from graphfx.graph.values import Value
+from graphfx.math.random import key_of
+from graphfx.motion import events
+from graphfx.node import DERIVED_ATTRIBUTES
 from graphfx.plan.frame_program import FrameProgram, LazyClock
-from graphfx.plan.liveness import Attributes, birth_order, set_value
-from graphfx.plan.rates import Scope, lane_type
+from graphfx.plan.hits import HIT_TYPES
+from graphfx.plan.holder import Holder, moment_of
+from graphfx.plan.liveness import COLUMN_TYPES, Attributes
+from graphfx.plan.rates import NOUGHT, Scope
+from graphfx.plan.setting import Setting, as_column
 from graphfx.plan.values import ValueWriter
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Operand, Uniform
 
 
-def write_birth(emitter: FlatNode, attributes: Attributes, seed: int, precision: int) -> FrameProgram:
-    """Return the program that fills the columns of new rows. It loads `birth_time` [s] and `birth_id`, by place."""
-    builder = Builder.begin(f"{emitter.path}: birth")
-    made = FrameProgram(builder.program, [])
-    stored = [name for name in attributes.columns if name in ATTRIBUTES]
-    found: dict[str, Operand] = {name: Uniform("0", "float", 0.0) for name in DERIVED_ATTRIBUTES}
-    scope = Scope(seed, emitter.path, found.__getitem__, lambda: builder.load("birth_id", "id"), lambda name: name in found)
-    clock = LazyClock(
-        {
-            "time": lambda: builder.load("birth_time", "float"),
-            "frame": lambda: made.time(builder, "frame"),
-            "frame word": lambda: made.time(builder, "frame word"),
-        },
-        lambda path: made.mesh(builder, path),
-    )
-    writer = ValueWriter(builder, scope, clock, None, precision)
-    for name in birth_order(emitter, stored):
-        builder.note = f"{emitter.path}.{name}"
-        found[name] = writer.argument(set_value(emitter, name))
-        if name in stored:
-            builder.store(name, as_column(builder, found[name], lane_type(ATTRIBUTES[name].type), name))
-    return made
+@dataclass
+class BirthWriter:
+    """Writes births of one source. Times, ids, clusters, `parent.x` and `hit.x` come by place."""
 
+    holder: Holder
+    attributes: Attributes
+    seed: int
+    precision: int
+    builder: Builder = field(init=False)
+    made: FrameProgram = field(init=False)
+    maker: FlatNode = field(init=False)
+    found: dict[str, Operand] = field(init=False)
 
-def as_column(builder: Builder, operand: Operand, type_: str, name: str) -> Column:
-    """Return an operand as a column that can be stored."""
-    if isinstance(operand, Column):
-        return operand
-    function = basic.copy_vector if type_ == "vec3" else basic.copy_number
-    made = Column(name, type_)
-    builder.call(function, operand, into=made)
-    return made
+    def write(self, maker: FlatNode, wanted: list[str] | None = None) -> FrameProgram:
+        """Return the program that fills the columns of new rows; of `wanted` attributes alone, to arrays by place."""
+        self.maker = maker
+        self.builder = Builder.begin(f"{maker.path}: birth")
+        self.made = FrameProgram(self.builder.program)
+        self.found = {name: Uniform("0", "float", 0.0) for name in DERIVED_ATTRIBUTES}
+        stored = [name for name in self.attributes.types if name in self.holder.table] if wanted is None else wanted
+        values = self._writer()
+        for name in self.holder.birth_order([*stored, *self._originals()] if wanted is None else stored, maker):
+            self.builder.note = f"{maker.path}.{name}"
+            if name == "lives" and name in self.found:
+                continue
+            self.found[name] = values.argument(self._value(name))
+            if name == "velocity" and "spread" in maker.given:
+                self._spread(values)
+        if wanted is None:
+            self._at_birth()
+        for name in stored:
+            self.builder.store(name, as_column(self.builder, self.found[name], self._lane(name), name))
+        if wanted is None:
+            self._store_originals()
+        return self.made
+
+    def _value(self, name: str) -> Value:
+        return self.holder.value_from(self.maker, name, self.holder.parents_of(self.maker))
+
+    def _originals(self) -> list[str]:
+        return [name[6:] for name in self.attributes.types if name.startswith("birth.")]
+
+    def _store_originals(self) -> None:
+        """Store the values at birth of what changes later, and the numbers in clusters."""
+        for name in self._originals():
+            self.builder.store(f"birth.{name}", as_column(self.builder, self.found[name], self._lane(name), f"birth.{name}"))
+        for name in self.holder.clusters:
+            if name in self.attributes.columns:
+                copy = as_column(self.builder, self._operand(name), "float", name, always=True)
+                self.builder.store(name, copy)
+
+    def _lane(self, name: str) -> str:
+        return COLUMN_TYPES.get(self.holder.table[name].type, "vec3")
+
+    def _operand(self, name: str) -> Operand:
+        """Return what a name means at birth."""
+        if name in self.found:
+            return self.found[name]
+        scope, _, rest = name.partition(".")
+        if scope == "hit":
+            return self.builder.load(name, HIT_TYPES[rest])
+        if scope == "parent" and rest not in ("age", "normalized_age"):
+            return self.builder.load(name, self._lane(rest))
+        if scope == "birth":
+            return self.found[rest]
+        if name in self.holder.clusters or scope == "parent":
+            return self.builder.load(f"number {name}" if scope != "parent" else name, "float")
+        raise KeyError(name)
+
+    def _number(self, name: str) -> Operand:
+        """Return a count as a word."""
+        if name == "lives" and "lives" not in self.attributes.columns:
+            return NOUGHT
+        if name == "hits":
+            return NOUGHT
+        count = self.builder.load("number lives", "float") if name == "lives" else self._operand(name)
+        word: Operand = self.builder.call(events.word_of, count, name=f"{name} word")
+        return word
+
+    def _writer(self) -> ValueWriter:
+        identity = lambda: self.builder.load("birth_id", "id")  # noqa: E731
+        scope = Scope(self.seed, self.maker.path, self._operand, identity, lambda name: True, self._number)
+        clock = LazyClock(
+            {
+                "time": lambda: self.builder.load("birth_time", "float"),
+                "frame": lambda: self.made.time(self.builder, "frame"),
+                "frame word": lambda: self.made.time(self.builder, "frame word"),
+            },
+            lambda path: self.made.mesh(self.builder, path),
+        )
+        if "lives" in self.attributes.columns:
+            self.found["lives"] = self.builder.load("number lives", "float")
+        return ValueWriter(self.builder, scope, clock, None, self.precision)
+
+    def _spread(self, values: ValueWriter) -> None:
+        key = key_of(self.seed, self.maker.path, "spread")
+        draw = self.builder.draw(key, self.builder.load("birth_id", "id"), NOUGHT, NOUGHT)
+        size = values.argument(self.maker.arguments["spread"])
+        self.found["velocity"] = self.builder.call(events.spread, self.found["velocity"], draw, size, name="velocity")
+
+    def _at_birth(self) -> None:
+        """Write what operators set at birth, in stack order."""
+        for node in self.holder.of_role("set", "assign"):
+            if moment_of(node) != "birth":
+                continue
+            setting = Setting(node, self._writer, self.builder, self.found)
+            for name in setting.targets(self.attributes.types):
+                self.found[name] = as_column(self.builder, self.found[name], self._lane(name), name, always=True)
+            setting.write(self.attributes.types)
+

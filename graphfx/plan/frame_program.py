@@ -12,16 +12,23 @@ from graphfx.program import Builder, Operand, Program, Uniform
 
 @dataclass
 class FrameProgram:
-    """A program with what each run must find: `steps` are the values of each substep, and `times` the uniforms
-    that hold times of the frame, by name: "length" and "half" of a step, ("start", k), ("middle", k), ("end", k),
-    "opening", "frame start", and ("cell", k, p) with the like for the p-th of `cells` cells of held noise in a step."""
+    """A program with what each run must find: `steps` are values found once, each with the time of the frame at which
+    they are found, and `times` the uniforms that hold times of the frame. Times have names: "length" and "half" of a
+    step, ("start", k), ("middle", k), ("end", k), "opening", "frame start", "frame end", and ("cell", k, p) with the
+    like for the p-th of `cells` cells of held noise in a step."""
 
     program: Program
-    steps: list[StepValues]
+    steps: list[tuple[Any, StepValues]] = field(default_factory=list)
     times: dict[Any, Uniform] = field(default_factory=dict)
     cells: int = 1
     meshes: dict[tuple[str, int], Uniform] = field(default_factory=dict)
     """Meshes by path and substep, each as it stands in the middle of that; of the whole frame for substep -1."""
+
+    def values_at(self, time: Any) -> StepValues:
+        """Return a place for values that are found once, at a time."""
+        made = StepValues()
+        self.steps.append((time, made))
+        return made
 
     def time(self, builder: Builder, name: Any) -> Uniform:
         """Return the uniform of a time, made when it is first asked for."""

@@ -56,7 +56,7 @@ def _image_data(image: ImagePlan) -> dict[str, Any]:
         "path": image.node.path,
         "size": [int(number) for number in image.value("size")],
         "camera": image.camera.path,
-        "draws": [path for path, _ in image.streams],
+        "draws": list(dict.fromkeys(drawn.path for drawn in image.streams)),
     }
 
 
@@ -66,9 +66,9 @@ def _emitter_data(emitter: EmitterPlan, precision: int) -> dict[str, Any]:
         {"name": name, "type": type_, "bytes": bytes_of(type_, precision), "reason": attributes.reasons[name]}
         for name, type_ in attributes.columns.items()
     ]
-    omitted = {name: f"{shown(value)} for all" for name, value in emitter.constants.items()}
-    omitted |= dict.fromkeys(attributes.unread, "nothing reads it")
-    made = [program for program in (emitter.birth, emitter.main, emitter.own) if program is not None]
+    told = {*attributes.read, *emitter.node.sets, "life"}
+    omitted = {name: f"{shown(value)} for all" for name, value in emitter.constants.items() if name in told}
+    omitted |= dict.fromkeys((name for name in attributes.unread if name in told), "nothing reads it")
     return {
         "path": emitter.path,
         "method": emitter.method,
@@ -82,7 +82,7 @@ def _emitter_data(emitter: EmitterPlan, precision: int) -> dict[str, Any]:
                 "instructions": sum(1 for _ in program.program.walk()),
                 "lines": ProgramListing(program.program).lines(program),
             }
-            for program in made
+            for program in emitter.made_programs
         ],
     }
 
@@ -169,7 +169,7 @@ class ProgramListing:
             *([f"given   {', '.join(map(self.name, program.uniforms))}"] if program.uniforms else []),
             *([f"load    {', '.join(map(self.name, program.loads.values()))}"] if program.loads else []),
         ]
-        if made is not None and made.steps and made.steps[0].exports:
+        if made is not None:
             listed += self._step_lines(made)
         listed += self._body(program.body, "")
         if program.rejects is not None:
@@ -180,9 +180,11 @@ class ProgramListing:
 
     def _step_lines(self, made: FrameProgram) -> Iterator[str]:
         """Yield what is found once a step, for all particles together."""
-        for number, step in enumerate(made.steps):
+        for time, step in made.steps:
+            if not step.exports:
+                continue
             inner = ProgramListing(step.builder.program)
-            yield f"once for step {number}:"
+            yield f"once, at the {time if isinstance(time, str) else f'{time[0]} of step {time[1]}'}:"
             yield from inner._body(step.builder.program.body, "  ")
             yield from (f"  {self.name(uniform)} = {inner.name(operand)}" for uniform, operand in step.exports)
 

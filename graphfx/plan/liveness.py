@@ -1,151 +1,202 @@
-"""Which attributes of an emitter's particles are stored: only what something kept reads, and that differs."""
+"""Which attributes of a source's particles are stored: only what something kept reads, and that differs."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 from graphfx.graph.flat import FlatNode
-from graphfx.graph.values import Literal, Name, Node, Random, Value, children
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, INFINITY
-from graphfx.plan.rates import Rate, Scope, rate_of
+from graphfx.graph.values import Literal, Value
+from graphfx.node import DERIVED_ATTRIBUTES, INFINITY
+from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, moment_of, names_in
 
-
-def names_in(tree: Any) -> set[str]:
-    """Return the attributes that a value reads."""
-    own: set[str] = set()
-    if isinstance(tree, Name):
-        own = {tree.name} & (ATTRIBUTES.keys() | DERIVED_ATTRIBUTES.keys())
-    elif isinstance(tree, Node) and tree.node_type is not None:
-        own = set(tree.node_type.reads)
-    return own.union(*(names_in(part) for part in children(tree)))
-
-
-def draws_in(tree: Any) -> bool:
-    """Return whether a value draws random numbers for each particle, or reads its id."""
-    own = isinstance(tree, Random) or (
-        isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
-    )
-    own = own and tree.per != "graph"
-    own |= isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
-    return own or any(draws_in(part) for part in children(tree))
+COLUMN_TYPES = {"float": "float", "int": "float", "bool": "float"}
+"""Column types of attribute types; all others are vectors."""
 
 
 @dataclass
 class Attributes:
     """`columns` maps what is stored to the store's column type; `constants` what is one for all to its value.
 
-    `reasons` says for each column who reads it. `unread` are those that differ and that nobody reads.
+    `reasons` says for each column who reads it. `unread` are those that differ and that nobody reads. `types` are
+    the lane types of what is stored for values; the rest is the engine's own.
     """
 
     columns: dict[str, str] = field(default_factory=dict)
     constants: dict[str, Value] = field(default_factory=dict)
     reasons: dict[str, str] = field(default_factory=dict)
     unread: list[str] = field(default_factory=list)
+    types: dict[str, str] = field(default_factory=dict)
+    read: frozenset[str] = frozenset()
+    """All that is read, stored or not."""
+
+    def store(self, name: str, type_: str, reason: str, lane: str = "") -> None:
+        """Have an attribute stored."""
+        self.columns[name], self.reasons[name] = type_, reason
+        if lane:
+            self.types[name] = lane
 
 
-def set_value(emitter: FlatNode, name: str) -> Value:
-    """Return what the emitter sets an attribute to, or its default."""
-    if name == "life" and "life" in emitter.arguments:
-        return emitter.arguments["life"]
-    attribute = ATTRIBUTES[name]
-    return emitter.sets.get(name) or Literal(attribute.type, value=attribute.default)
+def values_of(node: FlatNode) -> list[Value]:
+    """Return all values that a node is given, its condition among them."""
+    return [*node.arguments.values(), *node.sets.values(), *([node.only] if node.only is not None else [])]
 
 
-def _values_of(node: FlatNode) -> list[Value]:
-    return [*node.arguments.values(), *([node.only] if node.only is not None else [])]
+def _read_by(node: FlatNode) -> set[str]:
+    """Return the names that an operator reads, apart from the attributes that a `set` of it gives."""
+    values = [*node.arguments.values(), *([node.only] if node.only is not None else [])]
+    return set(node.node_type.reads).union(*(names_in(value) for value in values))
 
 
-def find_attributes(
-    emitter: FlatNode, operators: list[FlatNode], drawn: set[str], motion_blur: bool, prune: bool = True
-) -> Attributes:
-    """Decide what is stored. `drawn` are the attributes that the renderer reads; without `prune`, all are stored."""
-    written = {name for node in operators for name in node.node_type.writes}
-    if any(node.node_type.role == "surface" for node in operators):
-        written |= {"position", "velocity"}
-    readers = {name: "the renderer" for name in drawn}
-    for node in operators:
-        for name in set(node.node_type.reads) | {n for value in _values_of(node) for n in names_in(value)}:
-            readers.setdefault(name, node.path)
-    moving = set_value(emitter, "velocity")
-    moves = "velocity" in written or not (isinstance(moving, Literal) and not any(moving.value))
-    if moves:
-        readers.setdefault("velocity", "the motion")
-    written |= {"position"} if moves else set()
-    motion_blur = motion_blur and "position" in written
+@dataclass
+class Reading:
+    """Who reads what of a source: `readers` by name of the attribute, each with one reader."""
+
+    holder: Holder
+    readers: dict[str, str] = field(default_factory=dict)
+
+    def note(self, names: Iterable[str], reader: str) -> None:
+        """Note that somebody reads names; `birth.x` of what never changes is x itself."""
+        for name in sorted(names):
+            if name.startswith("birth.") and name[6:] not in self.holder.written:
+                name = name[6:]
+            if not name.startswith(("parent.", "hit.")):
+                self.readers.setdefault(name, reader)
+            if name == "normalized_age":
+                self.readers.setdefault("life", reader)
+
+    def operators(self) -> None:
+        """Note what the operators read: those that set attributes count only if what they set is read."""
+        for node in self.holder.operators:
+            if node.node_type.role not in SETTING_ROLES:
+                self.note(_read_by(node), node.path)
+        if self.holder.moves:
+            self.note(["velocity", "position"], "the motion")
+        for node in self.holder.of_role("recycle"):
+            self.note(["lives"], node.path)
+        for node in self.holder.adders:
+            self.note(["generation"], node.path)
+        waiting = self.holder.of_role(*SETTING_ROLES)
+        while True:
+            acting = [node for node in waiting if self.wanted(node)]
+            if not acting:
+                return
+            for node in acting:
+                waiting.remove(node)
+                self.note(_read_by(node), node.path)
+                for name in self.targets(node):
+                    self.note(names_in(node.sets[name]) if name in node.sets else (), node.path)
+
+    def targets(self, node: FlatNode) -> list[str]:
+        """Return the attributes that a setting operator gives and that are read."""
+        return [name for name in (*node.sets, *node.node_type.writes) if name in self.readers]
+
+    def wanted(self, node: FlatNode) -> bool:
+        """Return whether a setting operator gives anything that is read."""
+        return bool(self.targets(node))
+
+
+def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> Attributes:
+    """Decide what is stored; without `prune`, all attributes are."""
+    holder, readers = reading.holder, reading.readers
     if not prune:
-        readers |= {name: readers.get(name, "nothing") for name in ATTRIBUTES} | {"age": "nothing"}
-        written = set(ATTRIBUTES) - {"life"}
-    return _sort_out(emitter, operators, written, readers, motion_blur)
-
-
-def _sort_out(
-    emitter: FlatNode, operators: list[FlatNode], written: set[str], readers: dict[str, str], motion_blur: bool
-) -> Attributes:
-    found = Attributes()
-    scope = Scope(0, "", None, None, lambda name: name in written or _varies(emitter, name))  # type: ignore[arg-type]
-
-    def differs(name: str) -> bool:
-        return name in written or rate_of(set_value(emitter, name), scope) > Rate.CONSTANT
-
-    for name, attribute in ATTRIBUTES.items():
-        if name == "life":
+        for name in (*holder.table, "age"):
+            if name not in DERIVED_ATTRIBUTES or name == "age":
+                readers.setdefault(name, "nothing")
+    found = Attributes(read=frozenset(name for name, reader in readers.items() if reader != "nothing"))
+    for name, attribute in holder.table.items():
+        if name == "life" or name in DERIVED_ATTRIBUTES:
             continue
-        if name in readers and differs(name):
-            found.columns[name] = "float" if attribute.type == "float" else "vec3"
-            found.reasons[name] = f"read by {readers[name]}"
-        elif differs(name):
+        differs = holder.varies(name) or (not prune and name not in found.constants)
+        if name in readers and differs:
+            found.store(name, COLUMN_TYPES.get(attribute.type, "vec3"), f"read by {readers[name]}", _lane(attribute.type))
+        elif differs:
             found.unread.append(name)
         else:
-            found.constants[name] = set_value(emitter, name)
-    _add_hidden(found, emitter, operators, readers, motion_blur, differs("life"))
+            found.constants[name] = holder.value(name)
+        _note_birth(found, holder, readers, name)
+    _add_tails(found, holder, readers)
+    _add_hidden(found, reading, motion_blur)
     return found
 
 
-def _add_hidden(
-    found: Attributes,
-    emitter: FlatNode,
-    operators: list[FlatNode],
-    readers: dict[str, str],
-    motion_blur: bool,
-    lives_differ: bool,
-) -> None:
-    life = set_value(emitter, "life")
-    mortal = lives_differ or not (isinstance(life, Literal) and life.value == INFINITY)
-    if lives_differ:
-        found.columns["life"], found.reasons["life"] = "float", "read at death"
+def _lane(type_: str) -> str:
+    return COLUMN_TYPES.get(type_, "vec3")
+
+
+def _note_birth(found: Attributes, holder: Holder, readers: dict[str, str], name: str) -> None:
+    """Store the value at birth of what changes, where it is read."""
+    at_birth = f"birth.{name}"
+    if at_birth not in readers:
+        return
+    if holder.varies_at_birth(name):
+        lane = _lane(holder.table[name].type)
+        found.store(at_birth, lane, f"read by {readers[at_birth]}", lane)
+    else:
+        found.constants[at_birth] = holder.value(name)
+
+
+def _add_tails(found: Attributes, holder: Holder, readers: dict[str, str]) -> None:
+    for node in holder.of_role("set"):
+        for name in node.sets:
+            if name.startswith("tail.") and name in readers:
+                lane = _lane(holder.table[name[5:]].type)
+                found.store(name, lane, f"set by {node.path}, for the renderer", lane)
+
+
+def _add_hidden(found: Attributes, reading: Reading, motion_blur: bool) -> None:
+    holder, readers = reading.holder, reading.readers
+    life = holder.value("life")
+    differs = holder.varies("life")
+    mortal = differs or not (isinstance(life, Literal) and life.value == INFINITY)
+    if differs:
+        found.store("life", "float", "read at death", "float")
     else:
         found.constants["life"] = life
-    if mortal or "age" in readers or "normalized_age" in readers:
-        found.columns["birth"], found.reasons["birth"] = "time", "for age and death"
-    if any("draw" in node.node_type.reserved or any(map(draws_in, _values_of(node))) for node in operators):
-        found.columns["id"], found.reasons["id"] = "id", "keys the random numbers of the operators"
-    if motion_blur and "position" in found.columns:
-        found.columns["tail"], found.reasons["tail"] = "vec3", "where the shutter opened, for motion blur"
-    if any(node.node_type.role == "surface" for node in operators):
-        found.columns["resting"], found.reasons["resting"] = "mask", "who has come to rest on a surface"
+    if mortal or {"age", "normalized_age"} & readers.keys():
+        found.store("birth", "time", "for age and death")
+    needs_id = _needs_id(reading)
+    if needs_id:
+        found.store("id", "id", needs_id)
+    for name in holder.clusters:
+        if name in readers or (holder.of_role("recycle") and reads_at_birth(holder, found, name)):
+            found.store(name, "float", f"read by {readers.get(name, 'recycle')}", "float")
+    if motion_blur and "position" in found.columns and "position" in holder.written:
+        found.store("tail", "vec3", "where the shutter opened, for motion blur")
+    if holder.of_role("surface"):
+        found.store("resting", "mask", "who has come to rest on a surface")
+    for spawn in holder.spawns:
+        if moment_of(spawn) == "rate":
+            found.store(f"made {spawn.path}", "time", "how far it is with its next spawn")
 
 
-def _varies(emitter: FlatNode, name: str) -> bool:
-    """Return whether an attribute differs by particle at birth."""
-    if name not in ATTRIBUTES:
-        return True
-    value = set_value(emitter, name)
-    scope = Scope(0, "", None, None, lambda inner: inner != name and _varies(emitter, inner))  # type: ignore[arg-type]
-    return rate_of(value, scope) > Rate.CONSTANT
+def _needs_id(reading: Reading) -> str:
+    """Return why particles need their ids, or '' where they do not."""
+    holder = reading.holder
+    for node in holder.operators:
+        noise = "draw" in node.node_type.reserved or "id" in node.node_type.reserved
+        if noise or any(draws_in(value) for value in values_of(node)):
+            return "keys the random numbers of the operators"
+    if holder.spawns:
+        return f"names the parents of {holder.spawns[0].path}"
+    if holder.of_role("recycle"):
+        return "keys the random numbers of later lives"
+    return "keys the random numbers of a picture's selection" if "id" in reading.readers else ""
 
 
-def birth_order(emitter: FlatNode, wanted: list[str]) -> list[str]:
-    """Return the attributes to find at birth, each after those that its value reads."""
-    ordered: list[str] = []
+def reads_at_birth(holder: Holder, found: Attributes, cluster: str) -> bool:
+    """Tell whether the birth of a stored attribute reads a cluster's number."""
+    stored = [name for name in found.columns if name in holder.table]
+    return any(cluster in names_in(holder.value(name)) for name in holder.birth_order(stored))
 
-    def visit(name: str) -> None:
-        if name in ordered or name not in ATTRIBUTES:
-            return
-        for read in sorted(names_in(set_value(emitter, name)) - {name}):
-            visit(read)
-        ordered.append(name)
 
-    for name in wanted:
-        visit(name)
-    return ordered
+def reads_of_spawn(holder: Holder, maker: FlatNode, parents: list[Holder], stored: Iterable[str]) -> set[str]:
+    """Return what a spawn reads of its parents: for how many there are, and for the attributes that are stored."""
+    of_parents = [maker.arguments[name] for name in ("count", "probability", "rate")]
+    found = set().union(*(names_in(value) for value in (*of_parents, *([maker.only] if maker.only is not None else []))))
+    of_children = [holder.value_from(maker, name, parents) for name in holder.birth_order(list(stored), maker)]
+    for value in (*of_children, maker.arguments["spread"], maker.arguments["life"]):
+        found |= {name[7:] for name in names_in(value) if name.startswith("parent.")}
+    if moment_of(maker) == "hit":
+        found.add("hits")
+    return {name.removeprefix("parent.") for name in found if not name.startswith("hit.")}

@@ -9,63 +9,100 @@ from typing import Any
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
-from graphfx.plan.birth import write_birth
+from graphfx.plan.birth import BirthWriter
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.liveness import Attributes, find_attributes
+from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
+from graphfx.plan.liveness import Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
 from graphfx.plan.method import cells_met, choose_method
+from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
+from graphfx.plan.sources import Sources
+from graphfx.plan.spawning import SpawnPlan, SpawnWriter
 from graphfx.plan.steps import FrameWriter
-from graphfx.plan.support import check_support
+from graphfx.plan.support import MOVING_ROLES, check_names, check_support
 from graphfx.program import Program
 
-DRAWN = frozenset({"position", "radius", "color", "opacity"})
+DRAWN = ("position", "radius", "color", "opacity")
 """Attributes that a picture reads."""
 
 
 @dataclass
 class EmitterPlan:
-    """One emitter's particles: their columns, their operators, their programs.
+    """One source of particles: their columns, their operators, their programs.
 
-    `main` and `own` are None where nothing moves. `method` is how motion is computed, `reason` why.
-    `constants` are the attributes that are one for all.
+    `births` are the programs of all who make particles of it, its own first. `main` and `own` are None where nothing
+    happens in a step; `closing` is what is set as a frame ends, `tails` where it puts tails as the shutter opens,
+    `at_death` what is set then and who begins another life; `seeds` finds positions alone, for clusters. `method` is
+    how motion is computed, `reason` why. `constants` are the attributes that are one for all.
     """
 
-    node: FlatNode
-    operators: list[FlatNode]
+    holder: Holder
     attributes: Attributes
+    motion: Motion
     method: str
     reason: str
-    birth: FrameProgram
+    constants: dict[str, Any]
+    births: dict[str, FrameProgram]
     main: FrameProgram | None
     own: FrameProgram | None
-    motion: Motion
-    constants: dict[str, Any]
+    closing: FrameProgram | None
+    tails: FrameProgram | None
+    at_death: FrameProgram | None
+    seeds: FrameProgram | None
+    spawns: list[SpawnPlan]
+
+    @property
+    def node(self) -> FlatNode:
+        """Return the node that makes the particles."""
+        return self.holder.maker
 
     @property
     def path(self) -> str:
-        """Return the emitter's path."""
-        return self.node.path
+        """Return the path of the node that makes the particles."""
+        return self.holder.path
+
+    @property
+    def operators(self) -> list[FlatNode]:
+        """Return the operators that act on the particles, in order."""
+        return self.holder.operators
+
+    @property
+    def made_programs(self) -> list[FrameProgram]:
+        """Return all programs, births first."""
+        spawning = [made for spawn in self.spawns for made in (spawn.rate, spawn.offspring)]
+        others = (self.seeds, self.main, self.own, self.tails, self.closing, self.at_death, *spawning)
+        return [made for made in (*self.births.values(), *others) if made is not None]
 
     @property
     def programs(self) -> list[Program]:
         """Return all programs, births first."""
-        return [made.program for made in (self.birth, self.main, self.own) if made is not None]
+        return [made.program for made in self.made_programs]
 
     @property
     def mortal(self) -> bool:
-        """Return whether particles die."""
-        return self.constants.get("life", 0.0) < INFINITY
+        """Return whether particles die of age."""
+        return bool(self.constants.get("life", 0.0) < INFINITY)
+
+
+@dataclass
+class Drawn:
+    """One stream of an image: a source's particles, all or those that a program selects, with how they look."""
+
+    path: str
+    looks: dict[str, Any]
+    condition: Value | None = None
+    selection: FrameProgram | None = None
 
 
 @dataclass
 class ImagePlan:
-    """One image: `emitters` are the particles that it draws, each with how it looks."""
+    """One image: `streams` are the particles that it draws."""
 
     node: FlatNode
     camera: FlatNode
-    streams: list[tuple[str, dict[str, Any]]]
+    streams: list[Drawn]
 
     def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
         """Return one of the image's parameters."""
@@ -74,7 +111,7 @@ class ImagePlan:
 
 @dataclass
 class Plan:
-    """A whole graph, ready to cook."""
+    """A whole graph, ready to cook; `emitters` are all sources of particles, parents first."""
 
     flat: FlatGraph
     schedule: Schedule
@@ -107,62 +144,98 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     """
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
-    nodes = flat.nodes
-    images = [_image(nodes[path], schedule, flat) for path in schedule.order if nodes[path].node_type.role == "image"]
-    emitters = {
-        path: _emitter(nodes[path], schedule, flat, images, prune)
-        for path in schedule.order
-        if nodes[path].node_type.role == "emit"
-    }
-    return Plan(flat, schedule, emitters, images)
+    sources = Sources(flat, schedule)
+    images = [_image(flat.nodes[path], sources) for path in schedule.order if flat.nodes[path].node_type.role == "image"]
+    holders = find_holders(sources)
+    check_names(holders)
+    planner = _Planner(flat, images, holders, prune)
+    emitters = {path: planner.emitter(path) for path in reversed(holders)}
+    return Plan(flat, schedule, {path: emitters[path] for path in holders}, images)
 
 
-def _image(node: FlatNode, schedule: Schedule, flat: FlatGraph) -> ImagePlan:
-    streams: list[tuple[str, dict[str, Any]]] = []
+def _image(node: FlatNode, sources: Sources) -> ImagePlan:
+    streams: list[Drawn] = []
     for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
-        for top in schedule.kept(source, flat):
-            above = [path for path in (*schedule.upstream(top), top) if flat.nodes[path].node_type.role == "emit"]
-            streams += [(path, dict(look)) for path in above if path not in [name for name, _ in streams]]
-    return ImagePlan(node, flat.nodes[node.references["camera"]], streams)
+        for top in sources.schedule.kept(source, sources.flat):
+            for path, condition in sources.reaching(top).items():
+                if not any(path == drawn.path and (drawn.condition is None or drawn.condition == condition) for drawn in streams):
+                    streams.append(Drawn(path, dict(look), condition))
+    return ImagePlan(node, sources.flat.nodes[node.references["camera"]], streams)
 
 
-def _operators(path: str, schedule: Schedule, flat: FlatGraph) -> list[FlatNode]:
-    return [
-        flat.nodes[name]
-        for name in schedule.order
-        if flat.nodes[name].node_type.kind == "operators" and path in schedule.upstream(name)
-    ]
+class _Planner:
+    """Plans sources, children before their parents, since those must store what children read."""
 
+    def __init__(self, flat: FlatGraph, images: list[ImagePlan], holders: dict[str, Holder], prune: bool):
+        self.flat, self.images, self.holders, self.prune = flat, images, holders, prune
+        self.stored: dict[str, list[str]] = {}
+        """What is stored of each source that is planned."""
 
-def _emitter(node: FlatNode, schedule: Schedule, flat: FlatGraph, images: list[ImagePlan], prune: bool) -> EmitterPlan:
-    operators = _operators(node.path, schedule, flat)
-    movers = [mover_of(operator, bool(never_acts(operator, flat))) for operator in operators]
-    shown = any(node.path in dict(image.streams) for image in images)
-    shutter = max(float(image.value("shutter")) for image in images) if shown else 0.0
-    attributes = find_attributes(node, operators, set(DRAWN), shutter > 0, prune)
-    has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
-    method, reason = choose_method(movers, flat, has_velocity)
-    motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method))
-    writer = FrameWriter(node, attributes, motion, flat.seed, flat.time.precision, flat.time.substeps)
-    moves = bool(movers) or has_velocity
-    birth = write_birth(node, attributes, flat.seed, flat.time.precision)
-    opening = (
-        min(int((1 - shutter) * flat.time.substeps), flat.time.substeps - 1)
-        if shutter > 0 and "tail" in attributes.columns
-        else -1
-    )
-    return EmitterPlan(
-        node,
-        operators,
-        attributes,
-        method,
-        reason,
-        birth,
-        writer.main(opening) if moves else None,
-        writer.own(opening >= 0) if moves else None,
-        motion,
-        {name: writer.constant(name).value for name in attributes.constants},
-    )
+    def emitter(self, path: str) -> EmitterPlan:
+        """Return the plan of one source."""
+        flat, holder = self.flat, self.holders[path]
+        seed, precision, substeps = flat.seed, flat.time.precision, flat.time.substeps
+        drawn = [(image, each) for image in self.images for each in image.streams if each.path == path]
+        shutter = max((float(image.value("shutter")) for image, _ in drawn), default=0.0)
+        attributes = self._attributes(holder, [each for _, each in drawn], shutter > 0)
+        movers = [mover_of(node, bool(never_acts(node, flat))) for node in holder.of_role(*MOVING_ROLES)]
+        has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+        method, reason = choose_method(movers, flat, has_velocity)
+        motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method))
+        constants = Constants(holder, attributes, seed, precision)
+        writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
+        moves = bool(movers) or has_velocity
+        blurred = shutter > 0 and "tail" in attributes.columns
+        opening = min(int((1 - shutter) * substeps), substeps - 1) if blurred and moves else -1
+        births = BirthWriter(holder, attributes, seed, precision)
+        nearest = any(each.by == "nearest" and self._counted(holder, attributes, name) for name, each in holder.clusters.items())
+        spawning = SpawnWriter(path, attributes, constants.find, seed, precision)
+        for _, each in drawn:
+            if each.condition is not None:
+                each.selection = writer.selection(each.condition)
+        return EmitterPlan(
+            holder,
+            attributes,
+            motion,
+            method,
+            reason,
+            {name: constants.find(name).value for name in attributes.constants},
+            {maker.path: births.write(maker) for maker in (holder.maker, *holder.adders)},
+            writer.main(opening) if moves or writer.acts else None,
+            writer.own(opening >= 0) if moves or writer.acts else None,
+            writer.closing(),
+            writer.closing(opening=True) if blurred else None,
+            writer.at_death(),
+            births.write(holder.maker, ["position"]) if nearest else None,
+            [spawning.plan(node, self._home(node)) for node in holder.spawns],
+        )
+
+    @staticmethod
+    def _counted(holder: Holder, attributes: Attributes, cluster: str) -> bool:
+        """Return whether the numbers of a cluster are wanted."""
+        return cluster in attributes.columns or reads_at_birth(holder, attributes, cluster)
+
+    @staticmethod
+    def _home(spawn: FlatNode) -> str:
+        return spawn.references.get("into", spawn.path)
+
+    def _attributes(self, holder: Holder, drawn: list[Drawn], motion_blur: bool) -> Attributes:
+        """Find what is stored, and what that asks of the parents."""
+        reading = Reading(holder)
+        if drawn:
+            reading.note([*DRAWN, "tail.radius", "tail.color", "tail.opacity"], "the renderer")
+        for each in drawn:
+            if each.condition is not None:
+                reading.note(names_in(each.condition) | ({"id"} if draws_in(each.condition) else set()), "what is drawn")
+        for spawn in holder.spawns:
+            home = self.holders[self._home(spawn)]
+            maker = next(each for each in (home.maker, *home.adders) if each.path == spawn.path)
+            stored = self.stored.get(home.path) or [*DRAWN, "velocity", "life"]
+            reading.note(reads_of_spawn(home, maker, home.parents_of(maker), stored), spawn.path)
+        reading.operators()
+        found = find_attributes(reading, motion_blur, self.prune)
+        self.stored[holder.path] = [name for name in found.types if name in holder.table]
+        return found
 
 
 def _nonzero(value: Value | None) -> bool:

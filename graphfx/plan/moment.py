@@ -1,12 +1,26 @@
-"""A particle's state, and a step in time, as the operands that programs are written with."""
+"""A particle's state, and a step or an instant in time, as the operands that programs are written with.
+
+Times are in seconds from the start of the frame, so their precision does not depend on how long the
+cook has run; only what a value reads as `time` counts from the first frame.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
+from graphfx.motion import basic, events
+from graphfx.plan.arithmetic import function_for
+from graphfx.plan.frame_program import FrameProgram, LazyClock
+from graphfx.plan.holder import Holder
+from graphfx.plan.liveness import Attributes
+from graphfx.plan.rates import NOUGHT, Scope
 from graphfx.plan.values import ValueWriter
-from graphfx.program import Builder, Operand
+from graphfx.program import Builder, Column, Operand, Uniform
+
+ZERO_TIME = Uniform("0", "float", 0.0)
+AGES = ("age", "normalized_age")
 
 
 @dataclass
@@ -26,10 +40,10 @@ class State:
 
 @dataclass
 class Moment:
-    """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, and how to open a mask.
+    """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, its begin and end.
 
-    `then` is when it begins [s from the start of the frame]. `cell_time` gives a time of the p-th cell of held noise
-    that the step meets: "cell" is its number, "cell begin" and "cell end" its ends.
+    `cell_time` gives a time of the p-th cell of held noise that the step meets: "cell" is its number, "cell begin" and
+    "cell end" its ends. All are from the start of the frame [s].
     """
 
     builder: Builder
@@ -38,3 +52,151 @@ class Moment:
     writer: ValueWriter
     then: Operand
     cell_time: Callable[[str, int], Operand]
+    end: Callable[[], Operand]
+
+
+@dataclass
+class Constants:
+    """The attributes of one source that are one for all, found when they are asked for."""
+
+    holder: Holder
+    attributes: Attributes
+    seed: int
+    precision: int
+    found: dict[str, Uniform] = field(default_factory=dict)
+
+    def find(self, name: str) -> Uniform:
+        """Return such an attribute."""
+        if name not in self.found:
+            value = self.attributes.constants.get(name)
+            if value is None:
+                value = self.holder.value(name.removeprefix("birth."))
+            scope = Scope(self.seed, self.holder.path, self.find, None, lambda inner: False)  # type: ignore[arg-type]
+            made = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
+            assert isinstance(made, Uniform)
+            self.found[name] = made
+        return self.found[name]
+
+
+@dataclass
+class Moments:
+    """Makes the moments of one program. `constants` finds the attributes that are one for all.
+
+    `shared` holds what was found for the whole program, by id of the value.
+    """
+
+    seed: int
+    path: str
+    precision: int
+    attributes: Attributes
+    constant: Callable[[str], Uniform]
+    made: FrameProgram
+    shared: dict[int, Operand] = field(default_factory=dict)
+
+    def state(self, builder: Builder, has_velocity: bool, position: str = "position") -> State:
+        """Return the state of a particle: what is stored is loaded."""
+        types = self.attributes.types
+
+        def attribute(name: str) -> Operand:
+            if name in types:
+                return builder.load(position if name == "position" else name, types[name])
+            return self.constant(name)
+
+        return State(attribute("position"), attribute("velocity") if has_velocity else None, attribute)
+
+    def _scope(self, builder: Builder, state: State, age_at: Callable[[], Operand], told: dict[str, Operand]) -> Scope:
+        types = self.attributes.types
+
+        def read(name: str) -> Operand:
+            if name in told:
+                return told[name]
+            if name == "age":
+                return builder.call(basic.sum_of_numbers, builder.load("age", "float"), age_at(), name="age")
+            if name == "normalized_age":
+                divide = function_for("divide", ("float", "float"))
+                return builder.call(divide, read("age"), state.attribute("life"), name="normalized_age")
+            if name.startswith("parent."):
+                return read(name.removeprefix("parent."))
+            if name.startswith("birth.") and name not in types and name not in self.attributes.constants:
+                return state.read(name.removeprefix("birth."))
+            return state.read(name)
+
+        def number(name: str) -> Operand:
+            if name == "lives" and name not in types:
+                return NOUGHT
+            word: Operand = builder.call(events.word_of, state.read(name), name=f"{name} word")
+            return word
+
+        def varies(name: str) -> bool:
+            name = name.removeprefix("parent.")
+            return name in types or name in told or name in AGES or name.removeprefix("birth.") in types
+
+        return Scope(self.seed, self.path, read, lambda: builder.load("id", "id"), varies, number)
+
+    def _writer(self, builder: Builder, scope: Scope, clock: Any, steps: Any = None) -> ValueWriter:
+        writer = ValueWriter(builder, scope, clock, steps, self.precision)
+        writer.shared = self.shared
+        return writer
+
+    def whole_step(self, builder: Builder, k: int, state: State) -> Moment:
+        """Return a step that is the same for all particles."""
+        made = self.made
+        scope = self._scope(builder, state, lambda: made.time(builder, ("middle", k)), {})
+        clock = self._clock(builder, k)
+        writer = self._writer(builder, scope, clock, made.values_at(("middle", k)))
+        return Moment(
+            builder,
+            made.time(builder, "length"),
+            lambda: made.time(builder, "half"),
+            writer,
+            made.time(builder, ("start", k)) if made.cells > 1 else ZERO_TIME,
+            lambda kind, p: made.time(builder, (kind, k, p)),
+            lambda: made.time(builder, ("end", k)),
+        )
+
+    def fixed(self, builder: Builder, time: Any, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
+        """Return what finds values at a time of the frame that is one for all."""
+        made = self.made
+        scope = self._scope(builder, state, lambda: made.time(builder, time), told or {})
+        k = time[1] if isinstance(time, tuple) else -1
+        return self._writer(builder, scope, self._clock(builder, k), made.values_at(time))
+
+    def _clock(self, builder: Builder, k: int) -> LazyClock:
+        """Return what is the same for all particles in step `k` and is no step value."""
+        made = self.made
+        return LazyClock({"frame word": lambda: made.time(builder, "frame word")}, lambda path: made.mesh(builder, path, k))
+
+    def own_step(self, builder: Builder, k: int, then: Column, dt: Operand, state: State) -> Moment:
+        """Return a step of each particle's own, from `then` on, within step `k` of the frame."""
+        lane = self._lane_clock(builder, k, lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"))
+        lane.makers["half"] = lambda: builder.call(basic.half, dt, name="half")
+        scope = self._scope(builder, state, lambda: lane["moment"], {})
+        return Moment(
+            builder,
+            dt,
+            lambda: lane["half"],
+            self._writer(builder, scope, lane),
+            then,
+            lambda kind, p: self.made.time(builder, (kind, k, p)),
+            lambda: builder.call(basic.sum_of_numbers, then, dt, name="end"),
+        )
+
+    def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
+        """Return what finds values at a time of each particle's own."""
+        lane = self._lane_clock(builder, -1, lambda: time)
+        return self._writer(builder, self._scope(builder, state, lambda: time, told or {}), lane)
+
+    def _lane_clock(self, builder: Builder, k: int, moment: Callable[[], Operand]) -> LazyClock:
+        made = self.made
+        lane = LazyClock(
+            {
+                "moment": moment,
+                "time": lambda: builder.call(
+                    basic.sum_of_numbers, made.time(builder, "frame start"), lane["moment"], name="time"
+                ),
+                "frame": lambda: made.time(builder, "frame"),
+                "frame word": lambda: made.time(builder, "frame word"),
+            },
+            lambda path: made.mesh(builder, path, k),
+        )
+        return lane

@@ -9,7 +9,7 @@ from typing import Any
 
 from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, Node, Ramp, Random, Value, children
 from graphfx.node import NUMERIC_TYPES
-from graphfx.program import Column, Operand
+from graphfx.program import Column, Operand, Uniform
 
 
 class Rate(IntEnum):
@@ -39,12 +39,15 @@ def literal(value: Value) -> Any:
     return value.value
 
 
+NOUGHT = Uniform("0", "word", 0)
+
+
 @dataclass
 class Scope:
     """What names mean where a value stands.
 
-    `attributes` finds the operand of an attribute, or None where it is not stored; `identity` is the
-    column of particle ids, `life` the number of the particle's life, `frame` the frame's number as a word.
+    `attribute` finds the operand of an attribute; `identity` is the column of particle ids, and `number` gives as a
+    word what counts the draws: "lives", "hits", or a particle's number in a cluster.
     """
 
     seed: int
@@ -52,6 +55,7 @@ class Scope:
     attribute: Callable[[str], Operand]
     identity: Callable[[], Column]
     per_particle: Callable[[str], bool]
+    number: Callable[[str], Operand] = lambda name: NOUGHT
 
 
 def rate_of(tree: Any, scope: Scope) -> Rate:

@@ -58,7 +58,7 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
     if not outputs:
         raise GraphError(Problem("the graph has no output: give it an enabled node of type 'image'", path="nodes"))
-    needed = set(outputs).union(*(networkx.ancestors(edges, path) for path in outputs)) if prune else set(flat.nodes)
+    needed = _needed(flat, edges, outputs, dropped) if prune else set(flat.nodes)
     for path in flat.nodes:
         if path not in needed and path not in dropped:
             dropped[path] = "no output depends on it"
@@ -77,6 +77,20 @@ def _meshes(node: FlatNode) -> set[str]:
             found.add(tree.value)
         waiting += children(tree)
     return found
+
+
+def _needed(flat: FlatGraph, edges: networkx.DiGraph, outputs: list[str], dropped: dict[str, str]) -> set[str]:
+    """Return the nodes that the outputs depend on: those above them, and the spawns that add to one of these."""
+    needed: set[str] = set()
+    waiting = list(outputs)
+    while waiting:
+        needed = needed.union(waiting, *(networkx.ancestors(edges, path) for path in waiting))
+        waiting = [
+            path
+            for path, node in flat.nodes.items()
+            if node.references.get("into") in needed and path not in needed and path not in dropped
+        ]
+    return needed
 
 
 def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]:

@@ -1,53 +1,73 @@
 """Write the programs of a frame: `main` for particles that live through all of it, `own` for those with a time of their own.
 
-`main` gives every particle the same steps. Where a particle meets a surface it is rejected, unchanged.
-`own` takes those, the newborn and the dying, gathered into dense blocks: each has its own begin and end
-inside the frame, and stops at every contact. Times are in seconds from the start of the frame, so their
-precision does not depend on how long the cook has run.
+`main` gives every particle the same steps. Where something befalls a particle, a contact or an end, it is
+rejected, unchanged. `own` takes those, the newborn and the dying, gathered into dense blocks: each has its
+own begin and end inside the frame, and stops at every contact. `closing` follows at the end of the frame.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
 
-from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Value
-from graphfx.motion import basic
-from graphfx.node import ATTRIBUTES
+from graphfx.motion import basic, events
 from graphfx.plan.contacts import Contacts
-from graphfx.plan.frame_program import FrameProgram, LazyClock
+from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.hits import HIT_TYPES, Fate, Hits
+from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of
 from graphfx.plan.liveness import Attributes
-from graphfx.plan.moment import Moment, State
+from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
-from graphfx.plan.rates import Scope, lane_type
+from graphfx.plan.setting import Held, Setting, under_conditions
 from graphfx.plan.sharing import share
-from graphfx.plan.values import StepValues, ValueWriter
 from graphfx.program import Builder, Column, Operand, Uniform
 
-ZERO_TIME = Uniform("0", "float", 0.0)
 MOST_CONTACTS = 100
 """Contacts of one particle in one step; one that has more is reported and rests."""
 
 
 class FrameWriter:
-    """Writes the programs of one emitter's particles."""
+    """Writes the programs of one source's particles."""
 
-    def __init__(self, emitter: FlatNode, attributes: Attributes, motion: Motion, seed: int, precision: int, substeps: int):
-        self.emitter = emitter
+    def __init__(
+        self,
+        holder: Holder,
+        attributes: Attributes,
+        motion: Motion,
+        constant: Callable[[str], Uniform],
+        seed: int,
+        precision: int,
+        substeps: int,
+    ):
+        self.holder = holder
         self.attributes = attributes
         self.motion = motion
+        self.constant = constant
         self.seed = seed
         self.precision = precision
         self.substeps = substeps
-        self.constants: dict[str, Uniform] = {}
-        self.shared: dict[int, Operand] = {}
+        self.hits = Hits(holder, attributes)
+        at_steps = [node for node in holder.operators if moment_of(node) == "step"]
+        self.settings = [node for node in at_steps if node.node_type.role in ("set", "assign")]
+        self.endings = [node for node in at_steps if node.node_type.role in ENDING_ROLES]
+        self.fades = [node for node in at_steps if node.node_type.role == "fade"]
+
+    @property
+    def acts(self) -> bool:
+        """Return whether anything happens in a step, beside motion."""
+        live = self.attributes.columns
+        given = [name for node in (*self.settings, *self.fades) for name in (*node.sets, *node.node_type.writes)]
+        return bool(self.endings) or any(name in live for name in given)
+
+    def _begin(self, name: str) -> tuple[Builder, Moments]:
+        builder = Builder.begin(f"{self.holder.path}: {name}")
+        made = FrameProgram(builder.program, cells=self.motion.cells)
+        return builder, Moments(self.seed, self.holder.path, self.precision, self.attributes, self.constant, made)
 
     def main(self, opening_step: int) -> FrameProgram:
         """Return the program for whole steps; the shutter opens in substep `opening_step` (-1: no motion blur)."""
-        builder = Builder.begin(f"{self.emitter.path}: motion")
-        made = FrameProgram(builder.program, [], cells=self.motion.cells)
-        state = self._state(builder)
-        self.shared = {}
+        builder, moments = self._begin("motion")
+        made, state = moments.made, moments.state(builder, self.motion.has_velocity)
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
         tail = Column("tail", "vec3")
         if opening_step >= 0 and resting is not None:
@@ -55,171 +75,222 @@ class FrameWriter:
         active = (
             builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving")) if resting is not None else builder
         )
-        contacts = Contacts(self.motion, self.precision)
+        contacts = Contacts(self.motion, self.precision, self.hits, moments)
         event: Column | None = None
         for k in range(self.substeps):
-            moment = self._uniform_moment(active, made, k, state)
+            event = self._start(builder, moments, k, state, event)
+            moment = moments.whole_step(active, k, state)
             if k == 0:
                 self.motion.prepare(moment, state)
             before = active.call(basic.copy_vector, state.position, name="before") if k == opening_step else None
             self.motion.step(moment, state)
+            if self.fades:
+                self.fade(moments.whole_step(builder, k, state), state)
             event = contacts.main_step(moment, state, event)
             if before is not None:
                 active.note = "motion blur"
                 opening = [made.time(active, name) for name in (("start", k), ("end", k), "opening")]
                 active.call(basic.capture, before, before, state.position, *opening, into=tail)
-        self._store(builder, state, tail if opening_step >= 0 else None)
-        builder.program.rejects = event if self.motion.method != "sims" else None
+        self._store(builder, tail if opening_step >= 0 else None)
+        builder.program.rejects = event
         share(made.program)
         return made
+
+    def _start(self, builder: Builder, moments: Moments, k: int, state: State, event: Column | None) -> Column | None:
+        """Write what happens at the start of a step: attributes are set, and who ends is noted."""
+        for node in self.settings:
+            Setting(node, lambda: moments.fixed(builder, ("start", k), state), builder, Held(state.read)).write(
+                self.attributes.columns
+            )
+        for node in self.endings:
+            builder.note = node.path
+            who = under_conditions(node, moments.fixed(builder, ("start", k), state), builder).mask
+            event = builder.call(basic.both, who, who) if event is None else builder.call(basic.either, event, who, name="event")
+        return event
+
+    def fade(self, moment: Moment, state: State) -> None:
+        """Write what fades over a step."""
+        for node in self.fades:
+            Setting(node, lambda: moment.writer, moment.builder, Held(state.read), moment.dt).write(self.attributes.columns)
 
     def own(self, motion_blur: bool) -> FrameProgram:
         """Return the program for particles with times of their own: `begin` and `end` come by place."""
-        builder = Builder.begin(f"{self.emitter.path}: motion in own time")
-        made = FrameProgram(builder.program, [], cells=self.motion.cells)
-        state = self._state(builder)
-        self.shared = {}
+        builder, moments = self._begin("motion in own time")
+        made, state = moments.made, moments.state(builder, self.motion.has_velocity)
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
-        tail = builder.call(basic.copy_vector, state.position, name="tail") if motion_blur else None
-        start = made.time(builder, "frame start")
-        first = self._lane_moment(builder, made, 0, now, now, start)
-        self.motion.prepare(first, state)
+        tail = builder.load("tail", "vec3") if motion_blur else None
+        fate = self._fate(builder)
+        self.motion.prepare(moments.own_step(builder, 0, now, now, state), state)
+        turn = _Turn(self, moments, state, now, resting, tail, fate)
         unfinished: Column | None = None
         for k in range(self.substeps):
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
-            going = builder.call(basic.is_less, now, finish, name="going")
-            if resting is not None:
-                going = builder.call(basic.but_not, going, resting, into=going)
+            if fate is not None or self.settings:
+                self._own_start(builder, moments, k, state, turn, end)
+            going = turn.going(builder, finish)
             inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
-            self._own_step(inner, made, k, state, now, finish, start, resting, tail)
-            again = inner.call(basic.is_less, now, finish)
-            if resting is not None:
-                again = inner.call(basic.but_not, again, resting)
-            inner.call(basic.both, again, again, into=going)
+            turn.write(inner, k, finish)
+            inner.call(basic.both, *[turn.going(inner, finish)] * 2, into=going)
             left = builder.call(basic.both, going, going, name="unfinished")
             unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
         if resting is not None and unfinished is not None:
-            resting = builder.call(basic.either, resting, unfinished)
-            builder.store("resting", resting)
-        self._store(builder, state, tail)
-        if unfinished is not None:
-            made.program.stores["unfinished"] = unfinished
+            builder.store("resting", builder.call(basic.either, resting, unfinished))
+        self._store(builder, tail)
+        made.program.stores |= {"unfinished": unfinished} if unfinished is not None else {}
+        if fate is not None:
+            made.program.stores |= {"fate": fate.fate, "ended": now, **fate.hit}
         share(made.program)
         return made
 
-    def _own_step(
+    def _fate(self, builder: Builder) -> Fate | None:
+        if not (self.endings or self.hits.ends):
+            return None
+        nought = Uniform("0", "float", 0.0)
+        made = Fate(builder.call(basic.copy_number, nought, name="fate"))
+        if self.hits.listeners:
+            zero = {"float": nought, "vec3": Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))}
+            copies = {"float": basic.copy_number, "vec3": basic.copy_vector}
+            made.hit = {f"hit.{name}": builder.call(copies[t], zero[t], name=f"hit.{name}") for name, t in HIT_TYPES.items()}
+        return made
+
+    def _own_start(self, builder: Builder, moments: Moments, k: int, state: State, turn: _Turn, end: Column) -> None:
+        """Write what happens at the start of a step to those who are there."""
+        start = moments.made.time(builder, ("start", k))
+        here = builder.call(basic.both, builder.call(events.is_by, turn.now, start), builder.call(basic.is_less, start, end))
+        if turn.fate is not None:
+            here = builder.call(basic.both, here, builder.call(events.is_going_on, turn.fate.fate), name="here")
+        inside = builder.under(here)
+        for node in self.settings:
+            written = Setting(node, lambda: moments.fixed(inside, ("start", k), state), inside, Held(state.read)).write(
+                self.attributes.columns
+            )
+            moved = {"position", "velocity"} & {*node.sets, *node.node_type.writes}
+            if written is not None and turn.resting is not None and moved:
+                context = builder.under(builder.program.context)
+                context.call(basic.but_not, turn.resting, written.mask, into=turn.resting)
+        for node in self.endings:
+            assert turn.fate is not None
+            inside.note = node.path
+            ending = under_conditions(node, moments.fixed(inside, ("start", k), state), inside)
+            become = events.ended if node.node_type.role == "kill" else events.renewed
+            ending.call(become, turn.fate.fate, into=turn.fate.fate)
+            ending.call(basic.copy_number, start, into=turn.now)
+
+    def _store(self, builder: Builder, tail: Column | None) -> None:
+        """Store what the program has changed."""
+        changed = {id(column) for instruction in builder.program.walk() for column in getattr(instruction, "results", ())}
+        for name, column in builder.program.loads.items():
+            if name in self.attributes.types and id(column) in changed:
+                builder.store(name, column)
+        if tail is not None and "tail" in self.attributes.columns:
+            builder.store("tail", tail)
+
+    def closing(self, opening: bool = False) -> FrameProgram | None:
+        """Return the program of what is set as the frame ends; or, for `opening`, where it puts tails as the shutter opens."""
+        nodes = [node for node in self.holder.of_role(*SETTING_ROLES) if moment_of(node) == "frame"]
+        live = self.attributes.columns
+        nodes = [node for node in nodes if any(name in live for name in (*node.sets, *node.node_type.writes))]
+        if opening:
+            places = any("position" in (*node.sets, *node.node_type.writes) for node in nodes)
+            nodes = nodes if places and "tail" in live else []
+        kills = [] if opening else [node for node in self.holder.of_role("kill") if moment_of(node) == "frame"]
+        if not nodes and not kills:
+            return None
+        builder, moments = self._begin("tails" if opening else "end of the frame")
+        state = moments.state(builder, self.motion.has_velocity, "tail" if opening else "position")
+        time = "opening" if opening else "frame end"
+        for node in nodes:
+            Setting(node, lambda: moments.fixed(builder, time, state), builder, Held(state.read)).write(live)
+        for node in kills:
+            fate = builder.program.stores.get("fate") or builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="fate")
+            inside = under_conditions(node, moments.fixed(builder, time, state), builder)
+            inside.call(events.ended, fate, into=fate)
+            builder.store("fate", fate)
+        if opening:
+            builder.store("tail", state.position)  # type: ignore[arg-type]
+        else:
+            self._store(builder, None)
+        share(moments.made.program)
+        return moments.made
+
+    def at_death(self) -> FrameProgram | None:
+        """Return the program of what is set at deaths, and of who, dead of age, begins another life."""
+        settings = [node for node in self.holder.of_role("set", "assign") if moment_of(node) == "death"]
+        settings = [node for node in settings if any(name in self.attributes.columns for name in node.sets)]
+        recycles = [node for node in self.holder.of_role("recycle") if moment_of(node) == "death"]
+        if not settings and not recycles:
+            return None
+        builder, moments = self._begin("deaths")
+        state = moments.state(builder, self.motion.has_velocity)
+        begin = builder.load("begin", "float")
+        for node in settings:
+            Setting(node, lambda: moments.at(builder, begin, state), builder, Held(state.read)).write(self.attributes.columns)
+        renewed = builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="renewed")
+        for node in recycles:
+            builder.note = node.path
+            inside = under_conditions(node, moments.at(builder, begin, state), builder)
+            inside.call(events.ended, renewed, into=renewed)
+        builder.store("renewed", renewed)
+        self._store(builder, None)
+        share(moments.made.program)
+        return moments.made
+
+    def selection(self, condition: Value) -> FrameProgram:
+        """Return the program that tells, as a frame ends, which particles a picture shows."""
+        builder, moments = self._begin("selection")
+        writer = moments.fixed(builder, "frame end", moments.state(builder, self.motion.has_velocity))
+        builder.store("selected", builder.call(basic.both, builder.mask, writer.operand(condition), name="selected"))
+        return moments.made
+
+
+class _Turn:
+    """One turn of the loop in own time: go to the end of the step, or to the first contact on the way."""
+
+    def __init__(
         self,
-        inner: Builder,
-        made: FrameProgram,
-        k: int,
+        writer: FrameWriter,
+        moments: Moments,
         state: State,
         now: Column,
-        finish: Column,
-        start: Operand,
         resting: Column | None,
         tail: Column | None,
-    ) -> None:
-        """Write one turn of the loop: go to the end of the step, or to the first contact on the way."""
+        fate: Fate | None,
+    ):
+        self.writer, self.moments, self.state = writer, moments, state
+        self.now, self.resting, self.tail, self.fate = now, resting, tail, fate
+
+    def going(self, builder: Builder, finish: Operand) -> Column:
+        """Write who is not at the end of the step yet."""
+        going: Column = builder.call(basic.is_less, self.now, finish, name="going")
+        if self.resting is not None:
+            going = builder.call(basic.but_not, going, self.resting, name="going")
+        if self.fate is not None:
+            going = builder.call(basic.both, going, builder.call(events.is_going_on, self.fate.fate), name="going")
+        return going
+
+    def write(self, inner: Builder, k: int, finish: Column) -> None:
+        """Write the turn."""
+        moments, state, now, tail = self.moments, self.state, self.now, self.tail
         step = inner.call(basic.difference, finish, now, name="step")
         before = inner.call(basic.copy_vector, state.position, name="before") if tail is not None else None
         then = inner.call(basic.copy_number, now, name="then")
-        contacts = Contacts(self.motion, self.precision)
+        contacts = Contacts(self.writer.motion, self.writer.precision, self.writer.hits, moments, self.fate)
 
-        def moment_of(builder: Builder, dt: Column) -> Moment:
-            return self._lane_moment(builder, made, k, then, dt, start)
+        def step_of(builder: Builder, dt: Column) -> Moment:
+            return moments.own_step(builder, k, then, dt, state)
 
-        contacts.own_step(inner, moment_of, state, step, resting)
+        def fade(builder: Builder, dt: Column) -> None:
+            self.writer.fade(moments.own_step(builder, k, then, dt, state), state)
+
+        contacts.own_step(inner, step_of, state, step, self.resting, fade)
         inner.call(basic.sum_of_numbers, then, step, into=now)
         reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
         inner.under(reached).call(basic.copy_number, finish, into=now)
         if before is not None and tail is not None:
             inner.note = "motion blur"
-            opening = made.time(inner, "opening")
+            opening = moments.made.time(inner, "opening")
             inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
 
-    def _scope(self, builder: Builder, state_read: Any) -> Scope:
-        columns = self.attributes.columns
-        return Scope(
-            self.seed,
-            self.emitter.path,
-            state_read,
-            lambda: builder.load("id", "id"),
-            lambda name: name in columns or name in ("age", "normalized_age"),
-        )
 
-    def _state(self, builder: Builder) -> State:
-        columns = self.attributes.columns
 
-        def attribute(name: str) -> Operand:
-            if name in columns:
-                return builder.load(name, lane_type(ATTRIBUTES[name].type))
-            return self.constant(name)
-
-        has_velocity = self.motion.has_velocity
-        return State(attribute("position"), attribute("velocity") if has_velocity else None, attribute)
-
-    def constant(self, name: str) -> Uniform:
-        """Return an attribute that is one for all."""
-        if name not in self.constants:
-            value: Value = self.attributes.constants[name]
-            scope = Scope(self.seed, self.emitter.path, self.constant, None, lambda inner: False)  # type: ignore[arg-type]
-            found = ValueWriter(Builder.begin("constant"), scope, {}, None, self.precision).operand(value)
-            assert isinstance(found, Uniform)
-            self.constants[name] = found
-        return self.constants[name]
-
-    def _uniform_moment(self, builder: Builder, made: FrameProgram, k: int, state: State) -> Moment:
-        steps = StepValues()
-        made.steps.append(steps)
-        scope = self._scope(builder, self._reader(builder, state, lambda: made.time(builder, ("middle", k))))
-        clock = LazyClock({"frame word": lambda: made.time(builder, "frame word")}, lambda path: made.mesh(builder, path, k))
-        writer = self._share(ValueWriter(builder, scope, clock, steps, self.precision))
-        return Moment(
-            builder,
-            made.time(builder, "length"),
-            lambda: made.time(builder, "half"),
-            writer,
-            made.time(builder, ("start", k)) if self.motion.cells > 1 else ZERO_TIME,
-            lambda kind, p: made.time(builder, (kind, k, p)),
-        )
-
-    def _share(self, writer: ValueWriter) -> ValueWriter:
-        writer.shared = self.shared
-        return writer
-
-    def _lane_moment(self, builder: Builder, made: FrameProgram, k: int, then: Column, dt: Column, start: Operand) -> Moment:
-        lane = LazyClock(
-            {
-                "half": lambda: builder.call(basic.half, dt, name="half"),
-                "middle": lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"),
-                "time": lambda: builder.call(basic.sum_of_numbers, start, lane["middle"], name="time"),
-                "frame": lambda: made.time(builder, "frame"),
-                "frame word": lambda: made.time(builder, "frame word"),
-            },
-            lambda path: made.mesh(builder, path, k),
-        )
-        state = self._state(builder)
-        scope = self._scope(builder, self._reader(builder, state, lambda: lane["middle"]))
-        writer = self._share(ValueWriter(builder, scope, lane, None, self.precision))
-        return Moment(builder, dt, lambda: lane["half"], writer, then, lambda kind, p: made.time(builder, (kind, k, p)))
-
-    def _reader(self, builder: Builder, state: State, middle: Any) -> Any:
-        def read(name: str) -> Operand:
-            if name == "age":
-                return builder.call(basic.sum_of_numbers, builder.load("age", "float"), middle(), name="age")
-            if name == "normalized_age":
-                from graphfx.plan.arithmetic import function_for
-
-                life = state.attribute("life")
-                return builder.call(function_for("divide", ("float", "float")), read("age"), life, name="normalized_age")
-            return state.read(name)
-
-        return read
-
-    def _store(self, builder: Builder, state: State, tail: Column | None) -> None:
-        for name, operand in (("position", state.position), ("velocity", state.velocity)):
-            if isinstance(operand, Column) and name in self.attributes.columns:
-                builder.store(name, operand)
-        if tail is not None and "tail" in self.attributes.columns:
-            builder.store("tail", tail)

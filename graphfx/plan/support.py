@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Iterator, Mapping
 
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
-from graphfx.graph.values import Literal, Name, Node, Random, Value, children
 from graphfx.motion.probe import carries
-from graphfx.node import NUMERIC_TYPES, NodeType
+from graphfx.node import DERIVED_ATTRIBUTES, NUMERIC_TYPES, NodeType
+from graphfx.node.declare import RESPONSE
+from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, names_in
+from graphfx.plan.liveness import values_of
 from graphfx.plan.values import node_function
 
 MOVING_ROLES = ("linear", "flow", "acceleration", "velocity", "noise", "surface")
-SCOPES = ("life", "particle", "frame", "graph")
 METHODS = ("auto", "exact", "strang", "sims")
 
 
@@ -34,7 +34,7 @@ def check_support(flat: FlatGraph, order: list[str]) -> None:
 def _of_node(node: FlatNode) -> Iterator[Problem]:
     path, place = f"nodes.{node.path}", node.location
     role = node.node_type.role
-    if node.node_type.kind == "operators" and role not in MOVING_ROLES:
+    if node.node_type.kind == "operators" and role not in (*MOVING_ROLES, *SETTING_ROLES, *ENDING_ROLES):
         yield Problem(
             f"operators of the kind '{role}' are not carried out by this version; leave '{node.node_type.name}' out, "
             'or switch it off with "enabled": false',
@@ -43,7 +43,7 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
         )
     particles = not node.node_type.language and node.node_type.kind != "geometry"
     for parameter in node.node_type.parameters.values() if particles else ():
-        if parameter.type not in (*NUMERIC_TYPES, "mesh"):
+        if parameter.type not in (*NUMERIC_TYPES, "mesh") and parameter.name not in {each.name for each in RESPONSE}:
             yield Problem(
                 f"its parameter '{parameter.name}' is a {parameter.type}, and functions for particles are given "
                 f"{', '.join(NUMERIC_TYPES)} alone in this version",
@@ -51,13 +51,6 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
                 node.node_type.name,
             )
     yield from _of_type(node)
-    if node.when and node.when != "step":
-        yield Problem(f"'when': '{node.when}' is not carried out by this version", place, path)
-    if isinstance(node.only, Literal) and node.only.type == "selector":
-        yield Problem("a selector node for 'only' is not carried out by this version; give an expression", place, path)
-    values = [*node.arguments.values(), *node.sets.values(), *([node.only] if node.only is not None else [])]
-    for value in values:
-        yield from _of_value(value, value)
 
 
 def _of_type(node: FlatNode) -> Iterator[Problem]:
@@ -103,16 +96,16 @@ def _carries(declared: NodeType) -> bool:
     return carries(declared.function, declared.arguments, function.arguments, declared.writes)
 
 
-def _of_value(tree: Any, place: Value) -> Iterator[Problem]:
-    if isinstance(tree, Value) and tree.path:
-        place = tree
-    if isinstance(tree, Name) and ("." in tree.name or tree.name == "id"):
-        yield Problem(f"'{tree.name}' is not carried out by this version", place.location, place.path)
-    if isinstance(tree, (Random, Node)) and tree.per not in SCOPES:
-        yield Problem(
-            f"draws per {tree.per} are not carried out by this version; choose one of {', '.join(SCOPES)}",
-            place.location,
-            place.path,
-        )
-    for part in children(tree):
-        yield from _of_value(part, place)
+def check_names(holders: Mapping[str, Holder]) -> None:
+    """Raise GraphError where a value reads what the particles that reach it do not have: a cluster of another emitter."""
+    problems = []
+    for holder in holders.values():
+        known = {*holder.table, *DERIVED_ATTRIBUTES, *holder.clusters}
+        for node in (*holder.operators, *holder.spawns):
+            for value in values_of(node):
+                for name in sorted(names_in(value) - known - (node.sets.keys() if node in holder.spawns else set())):
+                    if "." not in name:
+                        whose = f"the particles of '{holder.path}' have no '{name}'; if it is a cluster, give it to their emitter"
+                        problems.append(Problem(whose, value.location or node.location, value.path))
+    if problems:
+        raise GraphError(problems)

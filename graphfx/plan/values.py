@@ -16,7 +16,7 @@ from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, 
 from graphfx.math.random import key_of
 from graphfx.plan import arithmetic
 from graphfx.plan.arithmetic import function_for
-from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, identity_of, lane_type, literal, rate_of
+from graphfx.plan.rates import CLOCK_NAMES, NOUGHT, Rate, Scope, identity_of, lane_type, literal, rate_of
 from graphfx.plan.splines import slopes
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 from graphfx.program.reference import execute
@@ -182,12 +182,21 @@ class _Lowering:
         raise TypeError(f"no instruction finds {type(tree).__name__}")
 
     def _draw(self, value: Value, per: str, purpose: str = "") -> Column:
-        """Write a draw in a scope: once for the graph, in each frame, or for the particle's life."""
-        key = key_of(self.scope.seed, self.scope.emitter, value.seed + purpose)
-        nought = Uniform("0", "word", 0)
-        identity: Operand = Uniform("0", "id", 0) if per == "graph" else self.scope.identity()
-        cell = self.writer.clock["frame word"] if per == "frame" and "frame word" in self.writer.clock else nought
-        return self.builder.draw(key, identity, nought, cell)
+        """Write a draw in a scope: once for the graph, in each frame, for the particle, its life or a hit, or its cluster.
+
+        Draws are counted by (id, life, cell); one for a cluster has the cluster's number in place of the life's.
+        """
+        scope = self.scope
+        key = key_of(scope.seed, scope.emitter, value.seed + purpose)
+        own = per in ("life", "particle", "hit", "frame")
+        identity: Operand = scope.identity() if own else Uniform("0", "id", 0)
+        life = NOUGHT if per in ("graph", "particle") else scope.number("lives" if own else per)
+        cell: Operand = NOUGHT
+        if per == "frame" and "frame word" in self.writer.clock:
+            cell = self.writer.clock["frame word"]
+        elif per == "hit":
+            cell = scope.number("hits")
+        return self.builder.draw(key, identity, life, cell)
 
     def _random(self, tree: Random) -> Operand:
         low, high = self.writer.operand(tree.low), self.writer.operand(tree.high)

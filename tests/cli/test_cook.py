@@ -172,7 +172,7 @@ def test_node_that_branches(invoke, folder: Path) -> None:
 
 @pytest.mark.parametrize(("option", "message"), [
     ("--limit-particles=100", "about 240 particles would be alive at once, and the limit is 100; "
-                              "lower the rate or the life, or allow more with --limit-particles"),
+                              "lower the rate, the count or the life, or allow more with --limit-particles"),
     ("--limit-pixels=500", "a picture of 32 x 18 has 576 pixels, and the limit is 500; "
                            "make it smaller, or allow more with --limit-pixels"),
 ])

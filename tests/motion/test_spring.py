@@ -172,7 +172,7 @@ def test_all_linear_operators_in_one_step(spiral):
 def test_the_paper_gains_energy_on_a_spring(angle):
     """`sims` grows by its determinant: P' V - P V' is multiplied by 1 + w^2 h^2 / 2 in every step, to 1e-12."""
     op = SPRING | {"frequency": angle * 24}
-    one = path([op], (1, 0, 0), (0, 0, 0), method="sims")
-    other = path([op], (0, 0, 0), (1, 0, 0), method="sims")
+    one = path([op], (1, 0, 0), (0, 0, 0), method="sims", rest_position=[0, 0, 0])
+    other = path([op], (0, 0, 0), (1, 0, 0), method="sims", rest_position=[0, 0, 0])
     area = one[0][:, 0] * other[1][:, 0] - other[0][:, 0] * one[1][:, 0]
     np.testing.assert_allclose(area[1:] / area[:-1], 1 + angle**2 / 2, rtol=1e-12)

@@ -200,7 +200,7 @@ def test_values_are_found_at_the_slowest_rate_that_serves(value, constants, step
     assert len(vortex) == 3
     assert all(isinstance(m, Uniform) and m.value is not None for m in magnitudes) == bool(constants)
     assert all(isinstance(m, Uniform) and m.value is None for m in magnitudes) == bool(steps)
-    assert [len(step.exports) for step in main.steps] == [steps] * 3
+    assert [len(step.exports) for _, step in main.steps] == [steps] * 3
     assert calls(made).count("sin") == 3 * instructions
 
 

@@ -1,0 +1,103 @@
+"""Run the programs of a plan over particles: find what each run must be given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.executor import Executor, Job
+from graphfx.cook.meshes import Meshes
+from graphfx.cook.particles import Particles
+from graphfx.motion.clock import Interval, cell_time
+from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.make import Plan
+from graphfx.plan.values import find_step_values
+
+ENGINE_COLUMNS = {"age": "birth"}
+"""Names in programs of columns that the store calls otherwise."""
+
+
+@dataclass
+class Programs:
+    """Runs programs by an executor."""
+
+    plan: Plan
+    executor: Executor
+    meshes: Meshes
+
+    @property
+    def real(self) -> Any:
+        """Return the type of a real."""
+        return np.float32 if self.plan.precision == 32 else np.float64
+
+    def prepare(self) -> None:
+        """Make all programs ready, so that what is wrong with one shows before any work."""
+        selections = [drawn.selection for image in self.plan.images for drawn in image.streams if drawn.selection is not None]
+        for made in (*(made for emitter in self.plan.emitters.values() for made in emitter.made_programs), *selections):
+            self.meshes.prepare(made)
+            self.executor.prepare(made.program)
+
+    def run(
+        self,
+        made: FrameProgram,
+        particles: Particles,
+        interval: Interval,
+        listed: np.ndarray | None = None,
+        excluded: np.ndarray | None = None,
+        by_place: dict[str, tuple[np.ndarray, ...]] | None = None,
+        count: int | None = None,
+        at: float | None = None,
+    ) -> np.ndarray:
+        """Run a program over an interval, on all rows, the first `count`, or those listed; return the rows rejected.
+
+        Ages are those at the start of the interval, or at the time `at`.
+        """
+        program, store, by_place = made.program, particles.store, by_place or {}
+        names = {name: ENGINE_COLUMNS.get(name, name) for name in (*program.loads, *program.stores) if name not in by_place}
+        arrays = {name: store.arrays(stored) for name, stored in names.items() if stored in store.columns}
+        job = Job(
+            count if count is not None else store.count if listed is None else len(listed),
+            arrays,
+            listed,
+            excluded,
+            self.uniforms(made, interval),
+            by_place,
+            interval.start if at is None else at,
+        )
+        return self.executor.run(program, job)
+
+    def opening(self, interval: Interval) -> float:
+        """Return when the longest shutter opens, from the start of an interval [s]."""
+        return max(interval.length - self.plan.shutter / self.plan.flat.time.fps, 0.0)
+
+    def uniforms(self, made: FrameProgram, interval: Interval) -> dict[int, Any]:
+        """Return the values of a program's uniforms over an interval."""
+        substeps = self.plan.flat.time.substeps
+        length = interval.length / substeps
+        shares = {"start": 0.0, "middle": 0.5, "end": 1.0}
+        named = {
+            "length": length,
+            "half": length / 2,
+            "opening": self.opening(interval),
+            "frame start": interval.start,
+            "frame end": interval.length,
+            "frame": interval.frame,
+            "frame word": interval.frame & 0xFFFFFFFF,
+        }
+
+        def at(name: Any) -> float:
+            return named[name] if isinstance(name, str) else (name[1] + shares[name[0]]) * length
+
+        values: dict[int, Any] = {}
+        for name, uniform in made.times.items():
+            if isinstance(name, tuple) and name[0].startswith("cell"):
+                kind, k, number = name
+                values[id(uniform)] = cell_time(kind, interval.start, k * length, length, number, made.cells)
+            else:
+                values[id(uniform)] = at(name)
+        values |= self.meshes.uniforms(made, interval.start, interval.length, substeps, interval.frame)
+        for time, steps in made.steps:
+            values |= find_step_values(steps, interval.start + at(time), interval.frame, self.plan.precision)
+        return values

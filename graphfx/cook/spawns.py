@@ -1,0 +1,113 @@
+"""Make children of particles: at their births, hits and deaths, and along their paths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.particles import Arrivals, Particles, padded
+from graphfx.cook.programs import Programs
+from graphfx.errors import LimitError, Problem
+from graphfx.math.random import key_of, spawned_id
+from graphfx.motion.clock import Interval
+from graphfx.plan.spawning import SpawnPlan
+
+MOST = 1 << 30
+"""Children of one spawn at once."""
+
+
+@dataclass
+class Occasion:
+    """What children are made of: rows of parents, when it befell them (from the start of the interval, in seconds).
+
+    `numbers` tell the events of one life apart. `hit` are the arrays of hit.normal and so on, in whole blocks.
+    """
+
+    rows: np.ndarray
+    begin: np.ndarray
+    numbers: np.ndarray
+    hit: dict[str, tuple[np.ndarray, ...]]
+
+
+@dataclass
+class Spawns:
+    """Finds how many children there are, and sends them on their way."""
+
+    programs: Programs
+    particles: dict[str, Particles]
+
+    def at(self, moment: str, parents: Particles, interval: Interval, occasion: Occasion) -> None:
+        """Let all spawns that wait for a moment make their children."""
+        if not len(occasion.rows):
+            return
+        for spawn in parents.plan.spawns:
+            if spawn.moment == moment:
+                self.make(spawn, parents, interval, occasion)
+
+    def make(self, spawn: SpawnPlan, parents: Particles, interval: Interval, occasion: Occasion) -> None:
+        """Make one spawn's children; they arrive at its home."""
+        real, count = self.programs.real, len(occasion.rows)
+        offspring = padded(np.zeros(count), real)
+        by_place: dict[str, Any] = {
+            "begin": (padded(occasion.begin, real),),
+            "event": (padded(occasion.numbers, real),),
+            "offspring": (offspring,),
+        } | occasion.hit
+        made = spawn.offspring
+        wanted = {name: arrays for name, arrays in by_place.items() if name in made.program.loads or name == "offspring"}
+        self.programs.run(made, parents, interval, occasion.rows, by_place=wanted)
+        counts = self._counts(spawn, offspring[:count], parents, occasion.rows)
+        if counts.any():
+            self._send(spawn, parents, interval, occasion, counts)
+
+    def _counts(self, spawn: SpawnPlan, offspring: np.ndarray, parents: Particles, rows: np.ndarray) -> np.ndarray:
+        total = float(np.nansum(offspring, dtype=np.float64))
+        if not total < MOST:
+            message = f"{total:,.0f} particles would be made at once, and the limit is {MOST:,}; lower the count"
+            raise LimitError(Problem(message, spawn.node.location, f"nodes.{spawn.path}"))
+        counts = np.nan_to_num(offspring, nan=0.0).astype(np.int64)
+        if np.isfinite(spawn.generations):
+            counts[self._generation(parents, rows) + 1 > spawn.generations] = 0
+        return counts
+
+    @staticmethod
+    def _generation(parents: Particles, rows: np.ndarray) -> np.ndarray:
+        return parents.gathered("generation", rows, np.float64)[0][: len(rows)]
+
+    def _send(
+        self, spawn: SpawnPlan, parents: Particles, interval: Interval, occasion: Occasion, counts: np.ndarray
+    ) -> None:
+        places = np.repeat(np.arange(len(counts)), counts)
+        copies = np.arange(len(places)) - np.repeat(np.cumsum(counts) - counts, counts)
+        rows = occasion.rows[places]
+        home = self.particles[spawn.home]
+        ids = parents.store.column("id")[0][rows]
+        lives = (
+            parents.store.column("lives")[0][rows].astype(np.uint64)
+            if "lives" in parents.store.columns
+            else np.zeros(len(rows), np.uint64)
+        )
+        low, high = key_of(spawn.path)
+        own = ids ^ np.uint64(low | high << 32)
+        events = occasion.numbers[places].astype(np.uint64)
+        times = interval.start + occasion.begin[places]
+        given = {}
+        for name in home.plan.births[spawn.path].program.loads:
+            if name.startswith("hit."):
+                given[name] = tuple(padded(array[places], array.dtype) for array in occasion.hit[name])
+            elif name.startswith("parent.") or name.startswith("number "):
+                given[name] = self._of_parent(name.partition(".")[2] or name[7:], parents, rows, times)
+        made = np.asarray(spawned_id(own, lives, events, copies.astype(np.uint64)), np.uint64)
+        home.arrivals.append(Arrivals(spawn.path, times, made, given, (ids, copies)))
+
+    def _of_parent(self, name: str, parents: Particles, rows: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, ...]:
+        real = self.programs.real
+        if name in ("age", "normalized_age"):
+            age = times - parents.store.column("birth")[0][rows]
+            share = 1.0 if name == "age" else parents.gathered("life", rows, np.float64)[0][: len(rows)]
+            return (padded(age / share, real),)
+        if name == "lives" or (name not in parents.store.columns and name not in parents.plan.constants):
+            return (padded(np.zeros(len(rows)), real),)
+        return parents.gathered(name, rows, real)

@@ -1,0 +1,196 @@
+"""One source of particles with all that acts on it, and what its attributes are at birth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from graphfx.graph.flat import Cluster, FlatNode
+from graphfx.graph.values import Call, Expression, Literal, Name, Node, Random, Value, children
+from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, Attribute
+from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, rate_of
+from graphfx.plan.sources import Sources
+
+DRAW_SCOPES = ("life", "particle", "hit", "frame", "graph")
+"""Scopes of draws that are no clusters."""
+SETTING_ROLES = ("set", "fade", "assign")
+"""Roles of operators that give attributes new values."""
+ENDING_ROLES = ("kill", "recycle")
+MOMENTS = {"set": "frame", "assign": "frame", "fade": "step", "kill": "step", "recycle": "death", "spawn": "death"}
+"""When an operator of a role acts, unless it says."""
+
+
+def names_in(tree: Any) -> set[str]:
+    """Return the names that a value reads: attributes, clusters, `birth.x`, `parent.x`, `hit.x`; not the clock."""
+    own: set[str] = set()
+    if isinstance(tree, Name):
+        own = {tree.name} - set(CLOCK_NAMES)
+    elif isinstance(tree, Node) and tree.node_type is not None:
+        own = set(tree.node_type.reads)
+    if isinstance(tree, (Random, Node)):
+        own |= {"hits"} if tree.per == "hit" else set() if tree.per in DRAW_SCOPES else {tree.per}
+    return own.union(*(names_in(part) for part in children(tree)))
+
+
+def draws_in(tree: Any) -> bool:
+    """Return whether a value draws random numbers for each particle, or reads its id."""
+    own = isinstance(tree, Random) or (
+        isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
+    )
+    scoped = tree.per in ("life", "particle", "hit", "frame") or getattr(tree, "vary", 0) if own else False
+    reads = isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
+    return bool(scoped) or reads or any(draws_in(part) for part in children(tree))
+
+
+def _draws(tree: Any) -> bool:
+    """Return whether a value draws at all: its numbers are its own maker's."""
+    return isinstance(tree, (Random, Node)) or any(map(_draws, children(tree)))
+
+
+def moment_of(node: FlatNode) -> str:
+    """Return when an operator or a spawn acts: birth, step, frame, hit, death, or rate."""
+    if node.node_type.role == "spawn" and "rate" in node.given:
+        return "rate"
+    return node.when or MOMENTS.get(node.node_type.role, "step")
+
+
+@dataclass(eq=False)
+class Holder:
+    """`maker` is an `emit` or a `spawn`, `adders` the spawns whose children join, `operators` what acts on the
+    particles, `spawns` who takes them as parents, and `parents` whose particles a spawn's parents are."""
+
+    maker: FlatNode
+    table: dict[str, Attribute]
+    adders: list[FlatNode] = field(default_factory=list)
+    operators: list[FlatNode] = field(default_factory=list)
+    spawns: list[FlatNode] = field(default_factory=list)
+    parents: list[Holder] = field(default_factory=list)
+    homes: dict[str, list[Holder]] = field(default_factory=dict)
+    """The sources of the parents of each adder."""
+
+    @property
+    def path(self) -> str:
+        """Return the maker's path."""
+        return self.maker.path
+
+    def parents_of(self, maker: FlatNode) -> list[Holder]:
+        """Return the sources of a maker's parents; an `emit` has none."""
+        return self.parents if maker is self.maker else self.homes[maker.path]
+
+    def of_role(self, *roles: str) -> list[FlatNode]:
+        """Return the operators of some roles, in order."""
+        return [node for node in self.operators if node.node_type.role in roles]
+
+    @property
+    def clusters(self) -> dict[str, Cluster]:
+        """Return the numbers that its particles are given."""
+        return self.maker.clusters
+
+    def value(self, name: str) -> Value:
+        """Return what an attribute is at birth."""
+        return self.value_from(self.maker, name, self.parents)
+
+    def value_from(self, maker: FlatNode, name: str, parents: list[Holder]) -> Value:
+        """Return what a maker gives an attribute: what it sets, what a parent had, or the default."""
+        if name == "life" and "life" in maker.given:
+            return maker.arguments["life"]
+        if name in maker.sets:
+            return maker.sets[name]
+        attribute = self.table[name]
+        if name == "life" and maker.node_type.role == "emit":
+            return maker.arguments["life"]
+        if maker.node_type.role == "spawn":
+            return self._inherited(maker, attribute, parents)
+        if attribute.follows:
+            return Expression(attribute.type, tree=Name(attribute.follows))
+        return Literal(attribute.type, value=attribute.default)
+
+    def _inherited(self, maker: FlatNode, attribute: Attribute, parents: list[Holder]) -> Value:
+        """Return what a spawn copies from the parent; one more of `generation`; hits and lives begin anew."""
+        name = attribute.name
+        if name in ("hits", "lives"):
+            return Literal("float", value=0.0)
+        inherit = maker.arguments["inherit"]
+        listed = inherit.value if isinstance(inherit, Literal) else ()
+        if listed and name not in (*listed, "generation"):
+            return Literal(attribute.type, value=attribute.default)
+        tree: Any = Name(f"parent.{name}")
+        if len(parents) == 1 and not parents[0].varies(name) and not _draws(parents[0].value(name)):
+            tree = parents[0].value(name)
+        if name == "generation":
+            tree = Call("add", (tree, 1.0))
+        return Expression(attribute.type, tree=tree)
+
+    @cached_property
+    def written(self) -> set[str]:
+        """Return the attributes that change after birth, or differ by who made the particle."""
+        found = {name for node in self.operators for name in node.node_type.writes}
+        for node in self.of_role(*SETTING_ROLES):
+            found |= {name for name in node.sets if name in self.table}
+        if self.of_role("surface"):
+            found |= {"position", "velocity", "hits"}
+        if self.of_role("recycle"):
+            found.add("lives")
+        for adder in self.adders:
+            found |= {"generation", *adder.sets, *(["life"] if "life" in adder.given else [])}
+            if self.homes[adder.path] != [self]:
+                found |= set(self.table)
+            if "spread" in adder.given:
+                found.add("velocity")
+        if "spread" in self.maker.given:
+            found.add("velocity")
+        return found | ({"position"} if self.moving(found) else set())
+
+    def moving(self, written: set[str]) -> bool:
+        """Return whether the particles' own velocities carry them."""
+        velocity = self.value("velocity")
+        return "velocity" in written or not (isinstance(velocity, Literal) and not any(velocity.value))
+
+    @property
+    def moves(self) -> bool:
+        """Return whether the particles' own velocities carry them."""
+        return self.moving(self.written)
+
+    def varies_at_birth(self, name: str) -> bool:
+        """Return whether an attribute differs by particle at birth."""
+        if name not in self.table:
+            return True
+        reading = Scope(0, "", None, None, lambda inner: inner != name and self.varies_at_birth(inner))  # type: ignore[arg-type]
+        return rate_of(self.value(name), reading) > Rate.CONSTANT
+
+    def varies(self, name: str) -> bool:
+        """Return whether an attribute is not one for all particles at all times."""
+        if name.startswith("birth."):
+            return self.varies_at_birth(name[6:])
+        return name not in self.table or name in self.written or self.varies_at_birth(name)
+
+    def birth_order(self, wanted: list[str], maker: FlatNode | None = None) -> list[str]:
+        """Return the attributes to find at birth, each after those that its value reads."""
+        maker = maker or self.maker
+        parents = self.parents_of(maker)
+        ordered: list[str] = []
+
+        def visit(name: str) -> None:
+            if name in ordered or name not in self.table or name in DERIVED_ATTRIBUTES:
+                return
+            for read in sorted(names_in(self.value_from(maker, name, parents)) - {name}):
+                visit(read)
+            ordered.append(name)
+
+        for name in wanted:
+            visit(name)
+        return ordered
+
+
+def find_holders(sources: Sources) -> dict[str, Holder]:
+    """Return all sources of a graph by path, parents first."""
+    table = ATTRIBUTES | sources.flat.attributes
+    holders: dict[str, Holder] = {}
+    for path in sources.paths:
+        maker, *adders = sources.makers(path)
+        parents = [holders[parent] for parent in sources.parents(path)] if maker.node_type.role == "spawn" else []
+        holders[path] = Holder(maker, table, adders, sources.operators(path), sources.spawns(path), parents)
+    for holder in holders.values():
+        holder.homes = {adder.path: [holders[parent] for parent in sources.parents(adder.path)] for adder in holder.adders}
+    return holders

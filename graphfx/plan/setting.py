@@ -1,0 +1,101 @@
+"""Write the operators that give attributes new values: `set`, `fade` and those that assign."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from typing import Any
+
+from graphfx.graph.flat import FlatNode
+from graphfx.graph.values import Name
+from graphfx.motion import basic, events
+from graphfx.plan.values import ValueWriter, node_function
+from graphfx.program import Builder, Column, Operand, Uniform
+
+
+def as_column(builder: Builder, operand: Operand, type_: str, name: str, always: bool = False) -> Column:
+    """Return an operand as a column that can be stored; with `always` as one of its own."""
+    if isinstance(operand, Column) and not always:
+        return operand
+    made = Column(name, type_)
+    builder.call(basic.copy_vector if type_ == "vec3" else basic.copy_number, operand, into=made)
+    return made
+
+
+@dataclass
+class Held:
+    """Columns of attributes by name."""
+
+    read: Callable[[str], Operand]
+
+    def __getitem__(self, name: str) -> Operand:
+        """Return an attribute's column."""
+        return self.read(name)
+
+
+@dataclass
+class Setting:
+    """One such operator at one moment.
+
+    `held` are the columns of the attributes by name; `writer` makes what finds values as they are now, so that each
+    attribute of a `set` may read those that it set before.
+    """
+
+    node: FlatNode
+    writer: Callable[[], ValueWriter]
+    builder: Builder
+    held: Held | dict[str, Any]
+    dt: Operand | None = None
+
+    def targets(self, live: Collection[str]) -> list[str]:
+        """Return the attributes that it gives and that are stored."""
+        return [name for name in (*self.node.sets, *self.node.node_type.writes) if name in live]
+
+    def write(self, live: Collection[str]) -> Builder | None:
+        """Write new values into the columns; return the builder under the operator's conditions, None if it gives nothing."""
+        names = self.targets(live)
+        if not names:
+            return None
+        self.builder.note = self.node.path
+        inside = under_conditions(self.node, self.writer(), self.builder)
+        if self.node.node_type.role == "assign":
+            self._assign(inside, live)
+            return inside
+        for name in names:
+            writer, into = self.writer(), self.held[name]
+            value, vector = writer.argument(self.node.sets[name]), into.type == "vec3"
+            if self.node.node_type.role == "fade":
+                rate = writer.argument(self.node.arguments["rate"])
+                function = events.faded_vector if vector else events.faded_number
+                inside.call(function, into, value, rate, self.dt or Uniform("0", "float", 0.0), into=into)
+            else:
+                inside.call(basic.copy_vector if vector else basic.copy_number, value, into=into)
+        return inside
+
+    def _assign(self, inside: Builder, live: Collection[str]) -> None:
+        node_type, writer = self.node.node_type, self.writer()
+        operands: list[Operand] = []
+        for name in node_type.arguments:
+            if name in self.node.arguments:
+                operands.append(writer.argument(self.node.arguments[name]))
+            else:
+                operands.append(writer.operand(Name(name)))
+        function = node_function(node_type)
+        results = inside.call(function, *operands, name=node_type.name)
+        results = results if isinstance(results, tuple) else (results,)
+        for name, result in zip(node_type.writes, results, strict=True):
+            if name in live:
+                into = self.held[name]
+                inside.call(basic.copy_vector if into.type == "vec3" else basic.copy_number, result, into=into)
+
+
+def under_conditions(node: FlatNode, writer: ValueWriter, builder: Builder) -> Builder:
+    """Return the builder under a node's `during` and `only`."""
+    if node.during is not None:
+        ends = [writer.operand(float(time)) for time in node.during]
+        within = builder.call(basic.is_within, writer.operand(Name("time")), *ends, name="during")
+        builder = builder.under(builder.call(basic.both, builder.mask, within), builder.note)
+    if node.only is not None:
+        only = writer.operand(node.only)
+        builder = builder.under(builder.call(basic.both, builder.mask, only, name="only"), builder.note)
+    return builder
