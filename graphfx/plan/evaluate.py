@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.errors import GraphError, Problem
+from graphfx.errors import GraphError, NodeError, Problem, suggestion
 from graphfx.graph.expressions import parse
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Literal, Value
@@ -51,11 +51,20 @@ def holds(node: FlatNode, condition: str, precision: int = 64) -> bool:
     """Return whether a condition that a node type declares holds for constants given as parameters."""
     constants = {name: value for name, value in node.arguments.items() if isinstance(value, Literal)}
 
+    varies: list[str] = []
+
     def resolve(name: str) -> tuple[Any, str] | str:
         if name in constants:
             value = constants[name]
             return value, "vec3" if isinstance(value.value, tuple) else "float"
+        if name not in node.node_type.parameters:
+            return f"it has no parameter '{name}'.{suggestion(name, node.node_type.parameters)}"
+        varies.append(name)
         return f"'{name}' is not constant"
 
     tree, _, mistakes = parse(condition, resolve)
+    if mistakes and not varies:
+        declared = node.node_type
+        message = f"its condition '{condition}' cannot be read: {mistakes[0].message}"
+        raise NodeError(Problem(message, declared.location, declared.name))
     return not mistakes and bool(constant_value(tree, precision))
