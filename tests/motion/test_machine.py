@@ -56,6 +56,13 @@ CASES: dict[str, list[Any]] = {
         {"type": "damp"},
         {"type": "bounce_plane", "resilience": 0.6},
     ],
+    "curl noise": [
+        {"type": "curl_noise", "speed": RAND, "size": 0.3},
+        {"type": "curl_noise", "id": "fine", "seed": 5000, "rate": {"expr": "mass"}, "only": {"expr": "mass > 1"}},
+        {"type": "turbulence", "strength": 3},
+        {"type": "damp"},
+    ],
+    "curl noise alone": [{"type": "curl_noise", "rate": 0}],
     "spring on a plane": [SPRING, {"type": "gravity"}, {"type": "bounce_plane", "resilience": 0.6}],
 }
 TIMES = {

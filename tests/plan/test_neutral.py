@@ -26,6 +26,8 @@ NEUTRAL = {
     "drag": {"strength": 0.0},
     "random_acceleration": {"strength": 0.0},
     "random_translate": {"speed": 0.0},
+    "curl_noise": {"speed": 0.0},
+    "turbulence": {"strength": 0.0},
 }
 """Parameters at which each operator's `neutral` holds."""
 
