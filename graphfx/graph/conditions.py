@@ -31,14 +31,17 @@ class ConditionReader:
 
     def read(self, item: Item, scope: Scope, key: str) -> Value | None:
         """Return a condition, or None after a complaint; selectors that it names are looked up later."""
-        value = self._read(item, scope, key)
-        return value if value is None else self.reader.within_limits(value, item, f"{scope.path}.{key}")
+        path = f"{scope.path}.{key}"
+        tree = self._read(item, scope, key)
+        if tree is None or (isinstance(tree, Value) and not is_selector(tree)):
+            return tree
+        return self.reader.within_limits(Expression("bool", item.location, path, "", tree), item, path)
 
-    def _read(self, item: Item, scope: Scope, key: str) -> Value | None:
+    def _read(self, item: Item, scope: Scope, key: str) -> Any:
+        """Return a tree of calls, values and literals that stand for selectors, or None after a complaint."""
         path = f"{scope.path}.{key}"
         if item.is_text:
-            named = Literal("selector", item.location, path, "", item.value)
-            return Expression("bool", item.location, path, "", named)
+            return Literal("selector", item.location, path, "", item.value)
         found = [name for name, _ in item.entries() if name in CONDITIONS]
         if not found:
             return self.reader.read(item, _ONLY, scope, key)
@@ -51,14 +54,12 @@ class ConditionReader:
         inner = item.value[name]
         if name == "not":
             part = self._read(inner, scope, f"{key}.not")
-            return None if part is None else Expression("bool", item.location, path, "", Call("not", (part,)))
+            return None if part is None else Call("not", (part,))
         if not inner.is_list or not inner.value:
             self.checking.mismatch(inner, f"{path}.{name}", f"{name} should be a list of at least one condition")
             return None
         parts = [self._read(given, scope, f"{key}.{name}[{index}]") for index, given in enumerate(inner.value)]
-        if any(part is None for part in parts):
-            return None
-        return Expression("bool", item.location, path, "", _joined(_JOINED[name], parts))
+        return None if any(part is None for part in parts) else _joined(_JOINED[name], parts)
 
 
 def _joined(function: str, parts: list[Any]) -> Any:
