@@ -38,7 +38,11 @@ class Sample:
 
     def _values(self, node_type: NodeType) -> None:
         value = {node_type.name: self._given(node_type)}
-        if node_type.result[0] == "vec3":
+        if node_type.reads:
+            kept = "color" if node_type.result[0] == "vec3" else "mass"
+            self.nodes["motion"] = {"type": "stack", "from": "source", "ops": [{"type": "set", "set": {kept: value}}]}
+            self.seen = "motion"
+        elif node_type.result[0] == "vec3":
             self.source["set"]["position"] = value
         else:
             self.source["values"] = {"drawn": value}

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from itertools import groupby
 from typing import Any
 
 from graphfx.authoring.sample import sample
 from graphfx.cli.failure import from_here
+from graphfx.errors import NodeError, Problem
 from graphfx.graph.document import document_of
 from graphfx.graph.format import canonical
 from graphfx.node import Library, NodeType, Parameter
@@ -19,12 +21,24 @@ def first_line(node_type: NodeType) -> str:
     return node_type.doc.strip().splitlines()[0]
 
 
-def table(library: Library) -> str:
-    """Return all node types by kind, a line each."""
-    width = max(len(name) for name in library)
+def load_all(library: Library) -> tuple[dict[str, NodeType], list[Problem]]:
+    """Return all node types that can be loaded, by kind and name, and what is wrong with the others."""
+    types: dict[str, NodeType] = {}
+    problems: list[Problem] = []
+    for name in sorted(library, key=lambda name: (library.kind_of(name), name)):
+        try:
+            types[name] = library[name]
+        except NodeError as error:
+            problems += error.problems
+    return types, problems
+
+
+def table(types: Mapping[str, NodeType]) -> str:
+    """Return node types by kind, a line each."""
+    width = max(map(len, types))
     lines: list[str] = []
-    for kind, names in groupby(sorted(library, key=lambda name: (library.kind_of(name), name)), key=library.kind_of):
-        lines += ["", kind, *(f"  {name:{width}}  {first_line(library[name])}" for name in names)]
+    for kind, group in groupby(types.values(), key=lambda node_type: node_type.kind):
+        lines += ["", kind, *(f"  {node_type.name:{width}}  {first_line(node_type)}" for node_type in group)]
     return "\n".join([*lines[1:], "", "'graphfx nodes NAME' says all about one."])
 
 
@@ -63,18 +77,17 @@ def node_data(node_type: NodeType, library: Library) -> dict[str, Any]:
             "parameters": parameters, **facts(node_type), "sample": sample(node_type, library)}
 
 
-def mentions(word: str, library: Library) -> list[str]:
+def mentions(word: str, types: Mapping[str, NodeType]) -> list[str]:
     """Return the node types whose name or text speaks of a word, a line each; those named so first, then by their summary."""
     wanted = word.lower().replace("_", " ")
     ranks: dict[str, int] = {}
-    for name in library:
-        text = library[name].doc.lower()
-        places = (name.replace("_", " "), first_line(library[name]).lower(), text)
+    for name, node_type in types.items():
+        places = (name.replace("_", " "), first_line(node_type).lower(), node_type.doc.lower())
         rank = next((rank for rank, place in enumerate(places) if wanted in place), None)
         if rank is not None:
             ranks[name] = rank
     width = max(map(len, ranks), default=0)
-    return [f"{name:{width}}  {first_line(library[name])}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
+    return [f"{name:{width}}  {first_line(types[name])}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
 
 
 def role(node_type: NodeType) -> str:

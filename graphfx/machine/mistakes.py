@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import dis
+import inspect
 import re
 
-from graphfx.errors import Location, NodeError, Problem
+import graphfx.math
+from graphfx.errors import Location, NodeError, Problem, suggestion
 from graphfx.lanes.arithmetic import BRANCH, LaneBranchError
+from graphfx.node.mistakes import unknown_name
 from graphfx.program import Function
 
 _PLAIN_TYPES = (
     (r"Vec3\(Real\(float\d\d, \d+\)\)", "Vec3"), (r"Real\(float\d\d, \d+\)", "float"), (r"Mask\(\d+\)", "bool"),
     (r"Literal\[\w+\]\(([^()]*)\)", r"\1"), (r"\bfloat64\b|\bint64\b", "float"),
 )
+_SYMBOLS = {"add": "+", "sub": "-", "mul": "*", "truediv": "/", "floordiv": "//", "mod": "%", "pow": "**", "neg": "-",
+            "lt": "<", "le": "<=", "gt": ">", "ge": ">=", "eq": "==", "ne": "!=", "and_": "&", "or_": "|", "invert": "~"}
+_ADVICE = {"mul Vec3": "; write dot(a, b) or cross(a, b)", "pow": "; write power(x, y), of graphfx.math",
+           "mod": "; write x - floor(x / y) * y", "floordiv": "; write floor(x / y)"}
 _BOILERPLATE = ("Failed in nopython mode", "During:", "File ")
 
 
@@ -34,15 +41,43 @@ def _message(function: Function, text: str, error: Exception) -> str:
         return BRANCH
     unknown = re.search(r"name '(\w+)' is not defined", text)
     if unknown:
-        return f"there is no '{unknown[1]}' here; import it, for instance from graphfx.math"
+        return unknown_name(unknown[1], function.body.__code__.co_varnames)
+    attribute = re.search(r"Unknown attribute '(\w+)' of type (.+)", text)
+    if attribute:
+        kind = _plain(attribute[2])
+        return f"a {kind} has no '{attribute[1]}'" + ("; it has x, y and z" if kind == "Vec3" else "")
     cast = re.search(r"Cannot cast (.+?) to (\S+\(.*?\)|\w+): %", text)
     if cast:
         return f"it returns {_plain(cast[1])} where {_plain(cast[2])} is declared"
-    found = re.findall(r"No implementation of function (.*?) found for signature:\s+>>> (.*)", text)
+    found = re.findall(r"No implementation of function Function\((.*)\) found for signature:\s+>>> (\w+)\((.*)\)", text)
     if found:
-        return f"no lane code for {_plain(found[-1][1].strip())}"
+        return _no_code(*found[-1])
     told = [line.strip() for line in text.splitlines() if line.strip() and not line.strip().startswith(_BOILERPLATE)]
     return _plain(told[0]) if told else f"{function.name} cannot be compiled"
+
+
+def _no_code(what: str, name: str, arguments: str) -> str:
+    """Return what to do about an operation that lanes do not have for some types."""
+    types = _parted(_plain(arguments))
+    symbol = _SYMBOLS.get(name.removeprefix("i") if name.removeprefix("i") in _SYMBOLS else name)
+    if symbol and "built-in" in what:
+        said = f" {symbol} ".join(types) if len(types) == 2 else f"{symbol}{types[0]}"
+        return f"there is no {said}{_ADVICE.get(name, _ADVICE.get(f'{name} {types[-1]}', ''))}"
+    own = getattr(graphfx.math, name, None)
+    if callable(own) and what.startswith(f"<function {name} "):
+        return f"{name} takes {_arguments(own)}, and is given ({', '.join(types)})"
+    if own is not None:
+        return f"particles have no {name} of Python or NumPy; write: from graphfx.math import {name}"
+    return f"particles have no {name}({', '.join(types)})." + suggestion(name, [n for n in vars(graphfx.math) if n[0] != "_"])
+
+
+def _arguments(function: object) -> str:
+    return "(" + ", ".join(inspect.signature(function).parameters) + ")"  # type: ignore[arg-type]
+
+
+def _parted(text: str) -> list[str]:
+    """Return the parts of a list with commas, those in brackets left whole."""
+    return [part.strip() for part in re.split(r",(?![^(]*\))", text) if part.strip()]
 
 
 def _plain(text: str) -> str:

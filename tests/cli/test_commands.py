@@ -166,5 +166,5 @@ def test_text_has_no_place_on_lanes(invoke, folder: Path) -> None:
     told = invoke("nodes", "drift", "--library", "mine").out
     (folder / "sample.json").write_text(told[told.index("{"):])
     assert invoke("check", "sample.json", "--library", "mine") == (
-        1, "", f"{node}:6: drift: its parameter 'mood' is a string, and functions for "
+        1, "", f"{node.relative_to(folder)}:6: drift: its parameter 'mood' is a string, and functions for "
         "particles are given float, int, vec3, point, direction, color, bool alone in this version\n")

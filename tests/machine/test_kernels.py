@@ -274,9 +274,9 @@ def line_of(mark: str) -> int:
 
 
 WRONG = [
-    (calls_nothing_known, "unknown", "there is no 'no_such_function' here; import it, for instance from graphfx.math"),
-    (adds_vector_to_number, "# added", "no lane code for add(float, Vec3)"),
-    (uses_text, "# text", "no lane code for where(bool, a, float)"),
+    (calls_nothing_known, "unknown", "there is no 'no_such_function' here."),
+    (adds_vector_to_number, "# added", "there is no float + Vec3"),
+    (uses_text, "# text", "where takes (condition, a, b), and is given (bool, a, float)"),
     (returns_a_number, "# number", "it returns float where Vec3 is declared"),
     (returns_two, "# two", "tuple index out of range"),
 ]

@@ -6,8 +6,9 @@ import json
 
 import click
 
+from graphfx.cli.failure import show
 from graphfx.cli.options import debug, library
-from graphfx.errors import Problem, UsageError, suggestion
+from graphfx.errors import EXIT_GRAPH, Problem, UsageError, suggestion
 
 
 @click.command()
@@ -15,23 +16,26 @@ from graphfx.errors import Problem, UsageError, suggestion
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @library
 @debug
-def command(name: str | None, as_json: bool, library: tuple[str, ...]) -> None:
+@click.pass_context
+def command(context: click.Context, name: str | None, as_json: bool, library: tuple[str, ...]) -> None:
     """List the node types, or describe one.
 
     With NAME: what it does, its parameters with units and ranges, and a graph that runs. A word that is no
     node type finds those whose text has it.
     """
-    from graphfx.cli.node_docs import describe, mentions, node_data, table
+    from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table
     from graphfx.node import Library, library_roots
 
     nodes = Library(library_roots(library))
-    if name is not None and name not in nodes:
-        found = mentions(name, nodes)
+    if name in nodes:
+        click.echo(json.dumps(node_data(nodes[name], nodes), indent=2) if as_json else describe(nodes[name], nodes))
+        return
+    types, problems = load_all(nodes)
+    if name is not None:
+        found = mentions(name, types)
         hint = " These speak of it:" if found else " 'graphfx nodes' lists them"
         raise UsageError(Problem(f"there is no node type '{name}'.{suggestion(name, nodes)}{hint}", notes=tuple(found)))
-    if as_json:
-        named = [name] if name is not None else sorted(nodes)
-        data = [node_data(nodes[each], nodes) for each in named]
-        click.echo(json.dumps(data[0] if name is not None else data, indent=2))
-    else:
-        click.echo(table(nodes) if name is None else describe(nodes[name], nodes))
+    click.echo(json.dumps([node_data(types[each], nodes) for each in sorted(types)], indent=2) if as_json else table(types))
+    if problems:
+        show(problems)
+        context.exit(EXIT_GRAPH)
