@@ -5,6 +5,9 @@ from graphfx.geometry.access import (
     choose_vertex,
     face_normal,
     face_point,
+    meets_plane,
+    skin,
+    skin_near,
     upmost_tangent,
     vertex,
     vertex_in_turn,
@@ -18,6 +21,6 @@ from graphfx.geometry.shapes import box, cone, cylinder, grid, points, sphere, t
 
 __all__ = [
     "Mesh", "box", "choose_face", "choose_vertex", "cone", "cylinder", "face_normal", "face_point", "first_meeting",
-    "grid", "is_inside", "letters", "load_mesh", "nearest", "points", "sphere", "torus", "upmost_tangent", "vertex",
-    "vertex_in_turn", "vertex_normal",
+    "grid", "is_inside", "letters", "load_mesh", "meets_plane", "nearest", "points", "skin", "skin_near", "sphere", "torus",
+    "upmost_tangent", "vertex", "vertex_in_turn", "vertex_normal",
 ]

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphfx.geometry.tables import CHANCES, FACES, VERTICES
-from graphfx.math import Vec3, floor, fma, minimum, sqrt, where
+from graphfx.math import Vec3, absolute, by_precision, dot, floor, fma, maximum, minimum, sqrt, where
 from graphfx.math.tables import gather, rows, turn
 
 HORIZONTAL = 1e-6
@@ -89,3 +89,35 @@ def upmost_tangent(normal: Any) -> Any:
     flat = slope < HORIZONTAL
     run = where(flat, 0.0, normal.y / slope)
     return Vec3(where(flat, 1.0, -normal.x * run), where(flat, 0.0, slope), where(flat, 0.0, -normal.z * run))
+
+
+def _skin_single(size: Any) -> Any:
+    return size * 7.62939453125e-6
+
+
+def _skin_double(size: Any) -> Any:
+    return size * 1.4210854715202004e-14
+
+
+skin = by_precision(_skin_single, _skin_double)
+"""64 eps of a size: the distance at which particles are kept from thin surfaces, well above all rounding (1/8 of it)."""
+
+
+def skin_near(point: Any) -> Any:
+    """The skin at a place: of its greatest coordinate, or of 1 m [m]."""
+    return skin(maximum(maximum(absolute(point.x), absolute(point.y)), maximum(absolute(point.z), 1.0)))
+
+
+def meets_plane(start: Any, end: Any, point: Any, normal: Any, thickness: Any) -> Any:
+    """(met, passing, facing): whether a segment comes into the skin of a two-sided plane, and the place that tells where.
+
+    `passing` is where it goes through the plane, or ends if it ends in the skin; `facing` the normal to the side of the
+    start. What starts nearer than half a skin counts as in front of the plane.
+    """
+    before, after = dot(normal, start - point), dot(normal, end - point)
+    behind = before < thickness * -0.5
+    before, after = where(behind, -before, before), where(behind, -after, after)
+    met = (after < thickness) & (after < before)
+    through = where(before > 0.0, before / (before - after), before * 0.0)
+    share = where(after >= 0.0, before * 0.0 + 1.0, through)
+    return met, start + (end - start) * share, where(behind, -normal, normal)
