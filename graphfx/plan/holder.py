@@ -74,6 +74,12 @@ class Holder:
         """Return the maker's path."""
         return self.maker.path
 
+    @property
+    def changing(self) -> frozenset[str]:
+        """Return the attributes that change within a frame, beside position and velocity."""
+        nodes = [node for node in self.of_role(*SETTING_ROLES) if moment_of(node) in ("step", "hit")]
+        return frozenset(name for node in nodes for name in (*node.sets, *node.node_type.writes)) | {"hits"}
+
     def parents_of(self, maker: FlatNode) -> list[Holder]:
         """Return the sources of a maker's parents; an `emit` has none."""
         return self.parents if maker is self.maker else self.homes[maker.path]

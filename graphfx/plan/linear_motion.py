@@ -37,19 +37,25 @@ class Coefficients:
 class LinearMotion:
     """The linear operators of one emitter, and its held noise, which is constant within a cell.
 
-    `arguments` gives the operands of an operator's function, `conditions` the builder under those of an operator.
+    `arguments` gives the operands of an operator's function, `conditions` the builder under those of an operator;
+    `changing` are the attributes that are set within a frame.
     """
 
     movers: list[Mover]
     arguments: Arguments
     conditions: Callable[[Mover, Moment], Builder]
+    changing: frozenset[str] = frozenset()
     _cached: dict[tuple[int, int], Terms] = field(default_factory=dict)
 
     def prepare(self, moment: Moment, state: State) -> None:
         """Write, once for all steps, the terms that stay the same."""
         for mover in self.movers:
-            if mover.role == "linear" and mover.time_free:
+            if self._is_fixed(mover):
                 self.terms(mover, moment, state)
+
+    def _is_fixed(self, mover: Mover) -> bool:
+        """Return whether an operator's terms stay the same through a frame."""
+        return mover.role == "linear" and mover.time_free and not self.changing.intersection(mover.arguments)
 
     def coefficients(self, moment: Moment, state: State, cell: int = 0) -> Coefficients:
         """Write the sum of all terms; noise is that of the `cell`-th cell that the step meets."""
@@ -65,7 +71,7 @@ class LinearMotion:
     def terms(self, mover: Mover, moment: Moment, state: State, cell: int = 0) -> Terms:
         """Write an operator's terms: constant, damping, turning (of V), stiffness (of P) or applied (to P)."""
         key = (id(mover), id(moment.builder.program))
-        fixed = mover.time_free and mover.role == "linear"
+        fixed = self._is_fixed(mover)
         if fixed and key in self._cached:
             return self._cached[key]
         moment.builder.note = mover.node.path
@@ -81,7 +87,7 @@ class LinearMotion:
         """Write the draw of a cell and what the operator makes of it."""
         scope = moment.writer.scope
         key = key_of(scope.seed, scope.emitter, mover.node.seed)
-        draw = moment.builder.draw(key, scope.identity(), Uniform("0", "word", 0), moment.cell_time("cell", cell))
+        draw = moment.builder.draw(key, scope.identity(), scope.number("lives"), moment.cell_time("cell", cell))
         given = self.arguments(mover, moment, state, {"draw": draw})
         made = moment.builder.call(mover.function, *given, name=mover.node.node_type.name)
         return {"constant" if mover.writes_velocity else "applied": made}

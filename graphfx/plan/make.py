@@ -181,7 +181,7 @@ class _Planner:
         movers = [mover_of(node, bool(never_acts(node, flat))) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
         method, reason = choose_method(movers, flat, has_velocity)
-        motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method))
+        motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method), holder.changing)
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity

@@ -24,18 +24,22 @@ __all__ = ["Motion", "Mover", "mover_of"]
 
 @dataclass
 class Motion:
-    """All operators of one emitter that move its particles; a step may meet `cells` cells of held noise."""
+    """All operators of one emitter that move its particles; a step may meet `cells` cells of held noise.
+
+    `changing` are the attributes that are set within a frame.
+    """
 
     movers: list[Mover]
     method: str
     has_velocity: bool
     cells: int = 1
+    changing: frozenset[str] = frozenset()
     linear: LinearMotion = field(init=False)
 
     def __post_init__(self) -> None:
         """Gather what is summed into the linear motion."""
         parts = [mover for mover in self.movers if mover.role in ("linear", "noise") and not mover.idle]
-        self.linear = LinearMotion(parts, self.arguments, self.under_conditions)
+        self.linear = LinearMotion(parts, self.arguments, self.under_conditions, self.changing)
 
     def of(self, role: str) -> list[Mover]:
         """Return the operators of one role that act at all, in order."""

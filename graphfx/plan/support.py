@@ -60,9 +60,9 @@ def _of_type(node: FlatNode) -> Iterator[Problem]:
         yield Problem("functions for particles are not given 'id' in this version", declared.location, name)
     if declared.role in ("linear", "flow", "noise"):
         flow = declared.role == "flow"
-        if not (declared.writes and set(declared.writes) <= {"position", "velocity"} and (flow or len(declared.writes) == 1)):
+        if not (set(declared.writes) <= {"position", "velocity"} and (flow or len(declared.writes) == 1)):
             yield Problem(
-                f"a {declared.role} operator that writes {', '.join(declared.writes) or 'nothing'} is not carried out by this "
+                f"a {declared.role} operator that writes {', '.join(declared.writes)} is not carried out by this "
                 f"version; it may write position or velocity{', or both' if flow else ''}",
                 declared.location,
                 name,

@@ -78,14 +78,6 @@ ODD = {
         "a noise operator holds what it gives for 1/24 s, and so may not read the position or the velocity; write "
         "what follows a particle as an acceleration, or as an applied velocity, of a field such as curl_noise",
     ),
-    "noise of nothing": (
-        "noise",
-        "()",
-        "draw: tuple",
-        "float",
-        "draw[0]",
-        "a noise operator that writes nothing is not carried out by this version; it may write position or velocity",
-    ),
     "identity": (
         "flow",
         '"position"',
