@@ -127,7 +127,7 @@ def example(parameter: Parameter) -> Any:
     low = float("-inf") if parameter.min is None else parameter.min
     high = float("inf") if parameter.max is None else parameter.max
     if parameter.type in ("interval", "list"):
-        return list(parameter.default or (0, 1))
+        return list(parameter.default or ((0, 1) if parameter.type == "interval" else (0, 1, 0)))
     value = min(max(1.0, low), high)
     whole = int(value) if value.is_integer() else value
     return whole if parameter.type in NUMERIC_TYPES else parameter.name
