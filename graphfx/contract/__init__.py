@@ -21,7 +21,7 @@ __all__ = ["Subject", "Truth", "subject", "truths_of"]
 Truth = Callable[[Subject], None]
 ALL: tuple[Truth, ...] = (truths.is_documented, truths.has_defaults_in_range, cooked.cooks)
 OF_FUNCTIONS: tuple[Truth, ...] = (truths.machine_is_plain_python, truths.stays_finite, truths.does_not_depend_on_order)
-OF_ROLES: tuple[Truth, ...] = (*claims.BY_ROLE.values(), claims.does_nothing_when_neutral)
+OF_ROLES: tuple[Truth, ...] = claims.ALL
 
 
 def subject(name: str, library: Iterable[str | Path] | str | Path = ()) -> Subject:

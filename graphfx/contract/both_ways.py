@@ -8,6 +8,8 @@ import numpy as np
 
 from graphfx.contract.inputs import Row
 from graphfx.cook.executor import BlockExecutor, Executor, Job, ReferenceExecutor
+from graphfx.geometry.shapes import box
+from graphfx.geometry.tables import MeshTables
 from graphfx.math import Vec3
 from graphfx.node import NodeType
 from graphfx.plan.values import node_function
@@ -17,6 +19,8 @@ BLOCK = 256
 KINDS: dict[int, Any] = {32: np.float32, 64: np.float64}
 KEY = (0x6A09E667, 0xBB67AE85)
 """Of the random numbers that a function is handed."""
+MESH = MeshTables(box((2.0, 1.0, 3.0)), searched=True)
+"""What a function is handed for a mesh."""
 Columns = dict[str, tuple[np.ndarray, ...]]
 
 
@@ -30,6 +34,7 @@ class BothWays:
 
     def _program(self) -> Program:
         builder = Builder.begin(self.node_type.name)
+        self.meshes: dict[int, MeshTables] = {}
         operands = [self._operand(builder, name, kind)
                     for name, kind in zip(self.node_type.arguments, self.function.arguments, strict=True)]
         results = builder.call(self.function, *operands)
@@ -37,8 +42,11 @@ class BothWays:
             builder.store(f"result {k}", column)
         return builder.program
 
-    @staticmethod
-    def _operand(builder: Builder, name: str, kind: str) -> Operand:
+    def _operand(self, builder: Builder, name: str, kind: str) -> Operand:
+        if kind == "mesh":
+            uniform = builder.uniform(name, kind)
+            self.meshes[id(uniform)] = MESH
+            return uniform
         if kind == "draw":
             nought = Uniform("0", "word", 0)
             drawn: Column = builder.draw(KEY, builder.load("given identity", "id"), nought, nought)
@@ -59,7 +67,7 @@ class BothWays:
         """Return the results for some rows, in their order; they run in another, where `order` lists them."""
         arrays = self.columns(rows, precision)
         executor: Executor = BlockExecutor(precision) if on_machine else ReferenceExecutor(precision)
-        executor.run(self.program, Job(len(rows), arrays, order))
+        executor.run(self.program, Job(len(rows), arrays, order, uniforms=self.meshes))
         return {name: tuple(part[: len(rows)] for part in arrays[name]) for name in self.program.stores}
 
 
@@ -97,7 +105,8 @@ def finite(results: Columns) -> np.ndarray:
 def plainly(node_type: NodeType, row: Row, **changed: Any) -> tuple[np.ndarray, ...]:
     """Return what a node's function gives in plain Python in float64, each result as an array."""
     given = {**row, **changed}
-    arguments = [_scalar(node_type.argument_type(name), given[name]) for name in node_type.arguments]
+    types = {name: node_type.argument_type(name) for name in node_type.arguments}
+    arguments = [MESH.of(np.float64) if kind == "mesh" else _scalar(kind, given[name]) for name, kind in types.items()]
     with np.errstate(all="ignore"):
         results = node_type.function(*arguments)
     several = results if isinstance(results, tuple) else (results,)

@@ -64,6 +64,22 @@ def has_a_surface(subject: Subject) -> None:
         assert slow, f"its distance changes faster than the particle moves: {shown(one)}"
 
 
+def stops_a_way(subject: Subject) -> None:
+    """A surface that a way meets stops it at a plane between its ends, whose normal of length 1 looks to the start."""
+    node_type = subject.node_type
+    met = 0
+    for row in _rows(subject):
+        (meets,), point, normal = plainly(node_type, row)
+        if not meets:
+            continue
+        met += 1
+        size = float(np.linalg.norm(normal))
+        assert abs(size - 1) < 1e-6, f"its normal has length {size:g} with {shown(row)}"
+        before, behind = (float(np.dot(np.subtract(row[end], point), normal)) for end in ("start", "end"))
+        assert before >= -NUDGE and behind <= NUDGE, f"its plane does not part start from end with {shown(row)}"
+    assert met, "no way meets it"
+
+
 def does_nothing_when_neutral(subject: Subject) -> None:
     """Where its `neutral` condition holds, an operator changes nothing."""
     node_type = subject.node_type
@@ -74,6 +90,8 @@ def does_nothing_when_neutral(subject: Subject) -> None:
         if not eval(node_type.neutral, vars(graphfx.math) | {"infinity": float("inf")} | names):
             return  # neutral at other values than zeros
         before = [np.asarray(still[name], float) if node_type.role in ("flow", "assign") else 0.0 for name in node_type.writes]
+        if node_type.role == "flow" and {"position", "velocity"} <= {*node_type.writes}:
+            before[node_type.writes.index("position")] += np.multiply(still["velocity"], still["dt"])
         for result, kept in zip(plainly(node_type, still), before, strict=True):
             complaint = f"it says that it is neutral when {node_type.neutral}, and is not"
             _close(result, kept + np.zeros_like(result), complaint, still)
@@ -92,8 +110,9 @@ def _close(one: np.ndarray, other: np.ndarray, complaint: str, row: Row) -> None
     assert np.all(np.abs(one - other) <= CLOSE * size), f"{complaint}: {one} against {other} with {shown(row)}"
 
 
-BY_ROLE = {"linear": is_linear, "flow": composes, "surface": has_a_surface}
-"""The claim of each role."""
+BY_ROLE = {"linear": (is_linear,), "flow": (composes,), "surface": (has_a_surface, stops_a_way)}
+"""The claims of each role."""
+ALL = (is_linear, composes, has_a_surface, stops_a_way, does_nothing_when_neutral)
 
 
 def applies(subject: Subject, claim: Any) -> bool:
@@ -101,6 +120,8 @@ def applies(subject: Subject, claim: Any) -> bool:
     node_type = subject.node_type
     if claim is does_nothing_when_neutral:
         return subject.is_closed and bool(node_type.neutral) and node_type.role in ("linear", "flow", "acceleration", "assign")
-    if not subject.is_closed or BY_ROLE.get(node_type.role) is not claim:
+    if not subject.is_closed or claim not in BY_ROLE.get(node_type.role, ()):
         return False
+    if claim in (has_a_surface, stops_a_way):
+        return ("start" in node_type.arguments) == (claim is stops_a_way)
     return claim is not composes or not {"time", "frame"} & {*node_type.reserved}

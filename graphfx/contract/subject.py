@@ -10,7 +10,7 @@ from graphfx.contract.both_ways import BothWays, Columns
 from graphfx.contract.inputs import Inputs, Row
 from graphfx.node import NUMERIC_TYPES, Library, NodeType
 
-_ON_LANES = (*NUMERIC_TYPES, "draw", "id")
+_ON_LANES = (*NUMERIC_TYPES, "draw", "id", "mesh")
 
 
 class Subject:
@@ -28,9 +28,9 @@ class Subject:
 
     @property
     def is_closed(self) -> bool:
-        """Whether plain numbers are all that its function is handed: no random ones, and no thing of the plan."""
+        """Whether its function is handed neither random numbers nor a particle's id."""
         kinds = map(self.node_type.argument_type, self.node_type.arguments)
-        return self.is_function and all(kind in NUMERIC_TYPES for kind in kinds)
+        return self.is_function and not {"draw", "id"} & {*kinds}
 
     @cached_property
     def both_ways(self) -> BothWays:
