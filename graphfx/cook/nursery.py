@@ -104,9 +104,13 @@ class Nursery:
         made = particles.plan.seeds
         assert made is not None
         if name not in particles.seeds:
-            ids = padded(np.arange(cluster.count, dtype=np.uint64) + np.uint64(SEED_ID), np.uint64)
-            given = {"birth_id": (ids,), "birth_time": (padded(np.full(cluster.count, interval.start), self.programs.real),)}
-            particles.seeds[name] = self._positions(made, particles, interval, cluster.count, given)
+            many, real = cluster.count, self.programs.real
+            given = {
+                "birth_id": (padded(np.arange(many, dtype=np.uint64) + np.uint64(SEED_ID), np.uint64),),
+                "birth_time": (padded(np.full(many, interval.start), real),),
+                "number lives": (padded(np.zeros(many), real),),
+            }
+            particles.seeds[name] = self._positions(made, particles, interval, many, given)
         given = {known: by_place[known] for known in ("birth_id", "birth_time", "number lives")}
         places = self._positions(made, particles, interval, count, given)
         return nearest(places, particles.seeds[name], particles.store.threads)
