@@ -66,7 +66,7 @@ class Lives:
         held = ends.fate >= HELD
         dies = (ends.fate == DIES) | (ends.fate == HELD + DIES)
         natural = (ends.fate == 0) & (death <= interval.length)
-        reborn = ends.fate == REBORN
+        reborn = (ends.fate == REBORN) | (ends.fate == HELD + REBORN)
         when = np.where(natural, death, ends.ended)
         if held.any():
             self._tell_hits(particles, interval, rows[held], when[held], _kept(ends.hit, held))

@@ -41,7 +41,7 @@ MOMENTS = {
     "set": ("frame", "step", "birth", "hit", "death"),
     "spawn": ("", "birth", "hit", "death"),
     "kill": ("step", "frame", "hit"),
-    "recycle": ("death", "step"),
+    "recycle": ("death", "step", "hit"),
 }
 """The moments at which a role may act, its default first ('' where it has none); all others act through the whole step."""
 CONDITIONS = ("all", "any", "not")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from graphfx.graph.flat import FlatNode
 from graphfx.motion import basic, events
-from graphfx.plan.holder import Holder, moment_of
+from graphfx.plan.holder import ENDING_ROLES, Holder, moment_of
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Mover
 from graphfx.plan.setting import Held, Setting, under_conditions
@@ -44,7 +44,7 @@ class Hits:
     def __init__(self, holder: Holder, attributes: Attributes):
         self.attributes = attributes
         self.settings = [node for node in holder.of_role("set", "assign") if moment_of(node) == "hit"]
-        self.kills = [node for node in holder.of_role("kill") if moment_of(node) == "hit"]
+        self.endings = [node for node in holder.of_role(*ENDING_ROLES) if moment_of(node) == "hit"]
         self.listeners = [node for node in holder.spawns if moment_of(node) == "hit"]
         self.deadly = {node.path for node in holder.of_role("surface") if response_of(node) == "die"}
         self.counted = "hits" in attributes.columns
@@ -52,11 +52,11 @@ class Hits:
     @property
     def ends(self) -> bool:
         """Return whether a hit may end or hold a particle."""
-        return bool(self.kills or self.listeners or self.deadly)
+        return bool(self.endings or self.listeners or self.deadly)
 
     def concern(self, surface: Mover) -> bool:
         """Return whether anything follows from the hits of a surface."""
-        everyone = (*self.settings, *self.kills, *self.listeners)
+        everyone = (*self.settings, *self.endings, *self.listeners)
         return self.counted or surface.node.path in self.deadly or any(_hears(node, surface) for node in everyone)
 
     def answer(
@@ -84,9 +84,10 @@ class Hits:
                 Setting(node, lambda: writer_of(inside, told), inside, Held(read)).write(self.attributes.columns)
         if fate is None:
             return
-        for node in self.kills:
+        for node in self.endings:
             if _hears(node, hit.surface):
-                under_conditions(node, writer_of(inside, told), inside).call(events.ended, fate.fate, into=fate.fate)
+                become = events.ended if node.node_type.role == "kill" else events.renewed
+                under_conditions(node, writer_of(inside, told), inside).call(become, fate.fate, into=fate.fate)
         for node in self.listeners:
             if _hears(node, hit.surface):
                 inside.call(events.held, fate.fate, into=fate.fate)

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from graphfx.graph.flat import Cluster, FlatNode
+from graphfx.graph.names import MOMENTS
 from graphfx.graph.values import Call, Expression, Literal, Name, Node, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, Attribute
 from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, rate_of
@@ -17,8 +18,6 @@ DRAW_SCOPES = ("life", "particle", "hit", "frame", "graph")
 SETTING_ROLES = ("set", "fade", "assign")
 """Roles of operators that give attributes new values."""
 ENDING_ROLES = ("kill", "recycle")
-MOMENTS = {"set": "frame", "assign": "frame", "fade": "step", "kill": "step", "recycle": "death", "spawn": "death"}
-"""When an operator of a role acts, unless it says."""
 
 
 def names_in(tree: Any) -> set[str]:
@@ -52,7 +51,7 @@ def moment_of(node: FlatNode) -> str:
     """Return when an operator or a spawn acts: birth, step, frame, hit, death, or rate."""
     if node.node_type.role == "spawn" and "rate" in node.given:
         return "rate"
-    return node.when or MOMENTS.get(node.node_type.role, "step")
+    return node.when or MOMENTS.get(node.node_type.role, ("step",))[0]
 
 
 @dataclass(eq=False)
