@@ -29,8 +29,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the README's graph, and with a `graphfx` that is this one."""
     home = tmp_path_factory.mktemp("readme")
     (home / "fountain.json").write_text(blocks("json")[0])
-    (home / "graphfx").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m graphfx "$@"\n')
-    (home / "graphfx").chmod(0o755)
+    for name in ("graphfx", "pytest"):
+        (home / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" -m {name} "$@"\n')
+        (home / name).chmod(0o755)
     return home
 
 
@@ -39,19 +40,21 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_commands_print_what_is_printed(folder: Path, command: str, output: str) -> None:
     """Each command gives the output shown, where `...` stands for anything."""
     environment = os.environ | {"PATH": f"{folder}:{os.environ['PATH']}", "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-    result = subprocess.run(command, shell=True, cwd=folder, env=environment, stdout=subprocess.PIPE, text=True,
-                            stderr=subprocess.STDOUT if "check" in command else subprocess.DEVNULL)
+    result = subprocess.run(command, shell=True, cwd=folder, env=environment, capture_output=True, text=True)
+    said = result.stdout + (result.stderr if result.returncode else "")
     pattern = re.escape(output).replace(re.escape("..."), ".*")
-    assert re.fullmatch(pattern, result.stdout, re.DOTALL), result.stdout
+    assert re.fullmatch(pattern, said, re.DOTALL), said
 
 
 def test_python_runs(folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """The lines of Python run, and print what their comment says."""
-    code = next(block for block in blocks("python") if "import graphfx" in block)
     monkeypatch.chdir(folder)
-    exec(compile(code, "README.md", "exec"), {})
-    assert capsys.readouterr().out.strip() == re.findall(r"print\(.*# (.*)", code)[0]
+    for code in (block for block in blocks("python") if "import graphfx" in block):
+        exec(compile(code, "README.md", "exec"), {})
+        assert capsys.readouterr().out.strip() == re.findall(r"print\(.*# (.*)", code)[0]
     assert len(list((folder / "frames").iterdir())) == 4
+    assert "built.json: nothing is wrong" in subprocess.run(
+        [sys.executable, "-m", "graphfx", "check", "built.json"], capture_output=True, text=True).stdout
     assert (folder / "fountain.png").stat().st_size > 0
 
 
