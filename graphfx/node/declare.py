@@ -56,7 +56,9 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
         raise fail("a node needs a docstring at the top of its file: its formula, and its source")
     signature = inspect.signature(function)
     known = (*RESERVED, *WAY) if role == "surface" else RESERVED
-    reads, reserved, parameters = [], [], {}
+    reads: list[str] = []
+    reserved: list[str] = []
+    parameters: dict[str, Parameter] = {}
     for argument in signature.parameters.values():
         if isinstance(argument.default, ParameterMark):
             parameters[argument.name] = read_parameter(argument, fail, language)

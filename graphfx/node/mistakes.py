@@ -25,8 +25,8 @@ def in_file(error: BaseException, file: Path) -> NodeError:
 
 def in_a_node(error: BaseException) -> NodeError | None:
     """Return the error for what was raised by a node's function as it ran in plain Python, or None if none was running."""
-    files = [Path(module.__file__) for name, module in list(sys.modules.items())
-             if name.startswith(PREFIX) and getattr(module, "__file__", None)]
+    nodes = [module for name, module in list(sys.modules.items()) if name.startswith(PREFIX)]
+    files = [Path(module.__file__) for module in nodes if module.__file__ is not None]
     for entry in reversed(traceback.extract_tb(error.__traceback__)):
         file = next((file for file in files if _same(entry.filename, file)), None)
         if file is not None:

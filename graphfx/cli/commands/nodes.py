@@ -27,7 +27,7 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     from graphfx.node import Library, library_roots
 
     nodes = Library(library_roots(library))
-    if name in nodes:
+    if name is not None and name in nodes:
         click.echo(json.dumps(node_data(nodes[name], nodes), indent=2) if as_json else describe(nodes[name], nodes))
         return
     types, problems = load_all(nodes)
