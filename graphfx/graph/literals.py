@@ -114,8 +114,8 @@ class Literals:
             return value, ""
         if kind == "path" and item.is_text:
             return str(find_file(value, self.folders)), ""
-        if kind == "interval" and item.is_list and len(value) == 2 and all(part.is_number for part in value):
-            start, end = (float(part.value) for part in value)
+        if kind == "interval" and item.is_list and len(value) == 2 and all(_is_end(part) for part in value):
+            start, end = (_INFINITY[part.value] if part.is_text else float(part.value) for part in value)
             return ((start, end), "") if start <= end else (None, f"the interval ends at {number(end)}, before its start "
                                                                    f"at {number(start)}; write [start, end]")
         if kind == "list" and item.is_list:
@@ -149,6 +149,10 @@ class Literals:
                 return None, "a colour has three channels; opacity is an attribute of its own"
             return None, _unlike(want, item)
         return tuple(float(part.value) for part in item.value), ""
+
+
+def _is_end(item: Item) -> bool:
+    return item.is_number or (item.is_text and item.value in _INFINITY)
 
 
 def _list(item: Item, want: Parameter) -> tuple[Any, str]:

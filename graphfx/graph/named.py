@@ -39,7 +39,7 @@ class NamedValues:
             else:
                 self.items[name] = given
         names = dict.fromkeys([*self.items, *(outer.scope.names if outer else ())])
-        self.scope: Scope = replace(scope, named=self.get, names=names, uniform="", qualifiers=frozenset())
+        self.scope: Scope = replace(scope, named=self.get, names=names, uniform="", qualifiers=scope.qualifiers - {"birth"})
         self.path = path
         for name in self._order():
             self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), self.scope, f"values.{name}")

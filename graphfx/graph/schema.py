@@ -35,7 +35,8 @@ _TEXT: Schema = {"type": "string"}
 _NUMBER: Schema = {"type": "number"}
 _ENDLESS: Schema = {"enum": ["infinity", "-infinity"]}
 _VECTOR: Schema = {"type": "array", "prefixItems": [_NUMBER] * 3, "minItems": 3, "maxItems": 3}
-_INTERVAL: Schema = {"type": "array", "prefixItems": [_NUMBER] * 2, "minItems": 2, "maxItems": 2}
+_END: Schema = {"anyOf": [_NUMBER, _ENDLESS]}
+_INTERVAL: Schema = {"type": "array", "prefixItems": [_END] * 2, "minItems": 2, "maxItems": 2}
 _HEX = "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$"
 _COLOR: Schema = {"type": "string", "pattern": _HEX}
 
@@ -155,7 +156,7 @@ def _common(node_type: NodeType) -> Schema:
         "ops": {"type": "array", "items": {"$ref": "#/$defs/operator"}, "description": "Operators, in order."},
         "when": _moment(node_type.role),
         "only": {"$ref": "#/$defs/condition"},
-        "during": {"anyOf": [{"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [_NUMBER, _given()]}},
+        "during": {"anyOf": [{"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [_NUMBER, _ENDLESS, _given()]}},
                              _given()],
                    "description": "Start and end of the time that it acts in [s]."},
         "enabled": {"anyOf": [{"type": "boolean"}, _given()], "default": True},

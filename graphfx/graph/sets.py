@@ -12,7 +12,7 @@ from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking, listed
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry
-from graphfx.graph.names import TAIL
+from graphfx.graph.names import TAIL, WORD
 from graphfx.graph.scope import Scope
 from graphfx.graph.values import Literal, Name, Node, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
@@ -40,6 +40,11 @@ def wanted_of(name: str, own: Mapping[str, Attribute] = MappingProxyType({})) ->
     """Return what an attribute, of graphfx or a graph's own, may be given; what is set of the tail alone is as the attribute."""
     attribute = own.get(name) or ATTRIBUTES[name.removeprefix("tail.")]
     return Parameter(name, attribute.type, attribute.default, attribute.unit, doc=attribute.doc)
+
+
+def _declaration(name: str) -> str:
+    """Return how a graph would declare an attribute of its own, where it may have such a name."""
+    return f' A graph declares its own: "attributes": {{"{name}": {{"type": "float"}}}}' if WORD.fullmatch(name) else ""
 
 
 class AttributeReader:
@@ -80,7 +85,8 @@ class AttributeReader:
                 self.checking.complain(location, at, f"'{name}' is a cluster; its emitter gives the numbers")
             elif name not in ATTRIBUTES and name not in TAIL and own is None:
                 known = [*ATTRIBUTES, *islice(scope.own, 2000), *(TAIL if entry.role == "set" else ())]
-                self.checking.complain(location, at, f"there is no attribute '{name}'." + suggestion(name, known, OTHER_NAMES),
+                near = suggestion(name, known, OTHER_NAMES) or _declaration(name)
+                self.checking.complain(location, at, f"there is no attribute '{name}'." + near,
                                        f"attributes: {listed([*ATTRIBUTES, *scope.own], 40)}")
             else:
                 value = self.reader.read(given, wanted_of(name, scope.own), scope, f"set.{name}")

@@ -200,6 +200,14 @@ def test_a_wrong_setting_is_told_at_the_option(name: str, text: str, message: st
         assert "101 is out of range; times must lie between 1 and 100 (from the parameter 'often')" in str(caught.value)
 
 
+@pytest.mark.parametrize("during", [[1, "infinity"], [{"expr": "1"}, "infinity"], {"param": "spell"}])
+def test_an_interval_may_have_no_end(during: Any, library: Library) -> None:
+    """From a second on for ever, written out or by a parameter."""
+    nodes = stack(VORTEX | {"during": during})
+    found = flat(graph(nodes, params={"spell": {"type": "interval", "default": [1, "infinity"]}}), library).nodes["fall/vortex"]
+    assert found.during == (1.0, float("inf"))
+
+
 def test_a_group_does_not_cook_alone(library: Library) -> None:
     """A graph that takes streams says that it must be used by another."""
     with pytest.raises(GraphError, match="this graph is a group, and its input 'particles' has no particles here"):

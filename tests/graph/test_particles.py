@@ -121,6 +121,9 @@ def test_a_spawn_takes_from_parents_and_makes_a_stream(library: Library) -> None
     it = found["it"]
     assert (it.sources, it.when, it.references, shown(it.only)) == (("sky",), "hit", {"into": "sky"}, "above by high")
     assert it.arguments["inherit"].value == ("color", "heat") and found["turn"].sources == ("it",)  # type: ignore[attr-defined]
+    own = node({"type": "spawn", "from": "sky", "when": "hit", "values": {"way": {"expr": "hit.normal * parent.mass"}},
+                "set": {"velocity": {"expr": "way"}}}, library)
+    assert [part.name for part in parts(own.sets["velocity"]) if isinstance(part, Name)] == ["hit.normal", "parent.mass"]
     assert [part.name for part in parts(it.sets["radius"]) if isinstance(part, Name)] == ["radius", "parent.radius", "parent.age"]
 
 
@@ -204,7 +207,8 @@ def test_a_group_brings_its_attributes(library: Library, tmp_path: Path) -> None
     assert flat(nodes, library, tmp_path, use=use, attributes={"heat": {"type": "float"}}).attributes["heat"].default == 0.0
     nodes["sky"] = {"type": "emit", "set": {"heat": 2}}
     told = check(document_of({"graphfx": 1, "use": use, "nodes": nodes}, folder=tmp_path), library)
-    assert [problem.message for problem in told] == ["there is no attribute 'heat'."]
+    assert [problem.message for problem in told] == [
+        "there is no attribute 'heat'. A graph declares its own: \"attributes\": {\"heat\": {\"type\": \"float\"}}"]
 
 
 def test_an_attribute_of_two_types_is_told(library: Library, tmp_path: Path) -> None:

@@ -53,6 +53,14 @@ GOOD: dict[str, Any] = {"graphfx": 1, "nodes": {
     ("nodes/view/id", "eye"), ("nodes/view/projection", "flat"), ("nodes/frames/camera", 3), ("nodes/frames/from", []),
     ("nodes/frames/from", [{"stream": "fall", "blend": "ad"}]), ("nodes/frames/size", [1280]),
     ("nodes/frames", {"type": "image", "from": "fall"}),
+    ("attributes", {"heat": {"type": "number"}}), ("attributes", {"heat": {"default": 1}}), ("nodes/sky/clusters", {"a": {}}),
+    ("nodes/sky/clusters", {"a": {"count": 0}}), ("nodes/sky/clusters", {"a": {"count": 3, "by": "nearer"}}),
+    ("nodes/sky/set/age", 1), ("nodes/sky/set/tail.radius", 1), ("nodes/fall/only", {"all": []}),
+    ("nodes/fall/only", {"nt": "a"}),
+    ("nodes/fall/only", {"above": {"hight": 3}}), ("nodes/view", {"type": "spawn", "from": "sky", "when": "step"}),
+    ("nodes/view", {"type": "spawn", "from": "sky", "when": {"hit": []}}), ("nodes/view", {"type": "fade", "from": "sky"}),
+    ("nodes/view", {"type": "kill", "from": "sky", "when": "death"}), ("nodes/sky/count", 1.5),
+    ("nodes/sky/set/radius", {"ramp": [[0, 1]], "interpolation": "cubic"}),
 ])
 def test_typed_mistakes_do_not_validate(path: str, value: Any, validator: Draft202012Validator) -> None:
     """An editor that knows the schema shows the mistake while it is typed."""
