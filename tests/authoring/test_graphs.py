@@ -15,6 +15,7 @@ from graphfx.graph.check import check
 from graphfx.graph.document import document_of
 from graphfx.node import Library, bundled_root
 
+from .fireworks import fireworks
 from .snow import snow
 
 GRAPHS = bundled_root() / "graphs"
@@ -121,3 +122,10 @@ def test_building_needs_no_compiler() -> None:
 def test_data_is_sound_json() -> None:
     """What is built passes the checks of documents."""
     assert check(document_of(snow().data), Library()) == []
+
+
+def test_the_language_in_python() -> None:
+    """Attributes, clusters, events, selectors, conditions and values are written in Python as fireworks.json has them."""
+    graph = fireworks()
+    assert graph.problems() == []
+    assert graph.text == (Path(__file__).parent / "fireworks.json").read_text()
