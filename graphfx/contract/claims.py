@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import inspect
 import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,6 +21,8 @@ CLOSE = 1e-7
 STATES = ("position", "velocity")
 NUDGE = 1e-4
 """Step along a normal [m]."""
+SOON = 1e-6
+"""Time in which a rate of change is measured [s]."""
 
 
 def is_linear(subject: Subject) -> None:
@@ -97,6 +101,20 @@ def does_nothing_when_neutral(subject: Subject) -> None:
             _close(result, kept + np.zeros_like(result), complaint, still)
 
 
+def has_its_linear_form(subject: Subject) -> None:
+    """Where its `exact_if` holds, a flow's rate of change is that of its linear form: (f(h) - f(0)) / h for a small h."""
+    node_type = subject.node_type
+    conditions = re.findall(r"(\w+) == ([\w.+-]+)", node_type.exact_if)
+    assert node_type.linear is not None
+    names = inspect.signature(node_type.linear).parameters
+    rate_type = replace(node_type, function=node_type.linear, arguments=tuple(names))
+    for row in _rows(subject):
+        exact = row | {name: float(value.replace("infinity", "inf")) for name, value in conditions}
+        after, before = (plainly(node_type, exact, dt=dt)[-1] for dt in (SOON, 0.0))
+        (rate,) = plainly(rate_type, exact)
+        _close((after - before) / SOON, rate, "its linear form is not its rate of change", exact, 1e-3)
+
+
 def _rows(subject: Subject) -> list[Row]:
     return Inputs(subject.node_type, seed=7).ordinary_rows(COUNT)
 
@@ -105,14 +123,14 @@ def _sum(one: Any, other: Any) -> tuple[float, ...]:
     return tuple(np.add(one, other))
 
 
-def _close(one: np.ndarray, other: np.ndarray, complaint: str, row: Row) -> None:
+def _close(one: np.ndarray, other: np.ndarray, complaint: str, row: Row, close: float = CLOSE) -> None:
     size = 1 + np.abs(other).max(initial=0.0)
-    assert np.all(np.abs(one - other) <= CLOSE * size), f"{complaint}: {one} against {other} with {shown(row)}"
+    assert np.all(np.abs(one - other) <= close * size), f"{complaint}: {one} against {other} with {shown(row)}"
 
 
-BY_ROLE = {"linear": (is_linear,), "flow": (composes,), "surface": (has_a_surface, stops_a_way)}
+BY_ROLE = {"linear": (is_linear,), "flow": (composes, has_its_linear_form), "surface": (has_a_surface, stops_a_way)}
 """The claims of each role."""
-ALL = (is_linear, composes, has_a_surface, stops_a_way, does_nothing_when_neutral)
+ALL = (is_linear, composes, has_its_linear_form, has_a_surface, stops_a_way, does_nothing_when_neutral)
 
 
 def applies(subject: Subject, claim: Any) -> bool:
@@ -124,4 +142,6 @@ def applies(subject: Subject, claim: Any) -> bool:
         return False
     if claim in (has_a_surface, stops_a_way):
         return ("start" in node_type.arguments) == (claim is stops_a_way)
+    if claim is has_its_linear_form:
+        return node_type.linear is not None
     return claim is not composes or not {"time", "frame"} & {*node_type.reserved}

@@ -19,6 +19,7 @@ FAULTS = [
     ("slanted", "has_a_surface", "its normal has length "),
     ("inverted", "has_a_surface", "its normal does not point to greater distance with position="),
     ("steep", "has_a_surface", "its distance changes faster than the particle moves: position="),
+    ("misled", "has_its_linear_form", "its linear form is not its rate of change: ["),
     ("averted", "stops_a_way", "its plane does not part start from end with start="),
     ("busy", "does_nothing_when_neutral", "it says that it is neutral when strength == 0, and is not: ["),
     ("terse", "is_documented", "the first line of its file should begin with a capital: 'no sentence'"),
