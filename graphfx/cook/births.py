@@ -20,7 +20,7 @@ MOST = 1 << 30
 class Births:
     """The births of one emitter: those of its rate, and those made at once as it begins and again after `every` seconds.
 
-    `made` is the integral of the rate so far; the k-th particle is born as it passes k.
+    `vertices` are made besides as it begins. `made` is the integral of the rate so far; the k-th particle is born as it passes k.
 
     For a constant rate that instant is begin + k / rate whatever the frames are, so the 0th is born as the emitter
     begins. A rate that changes is taken at the middle of each interval; `following` is the number of the next birth.
@@ -28,6 +28,7 @@ class Births:
 
     plan: EmitterPlan
     start: float
+    vertices: int = 0
     made: float = 0.0
     following: int = 0
 
@@ -36,7 +37,7 @@ class Births:
         during = self.plan.node.during or (-math.inf, math.inf)
         self.begin, self.finish = max(self.start, during[0]), during[1]
         node = self.plan.node
-        rated = "rate" in node.given or "count" not in node.given
+        rated = "rate" in node.given or not ("count" in node.given or "vertices" in node.references)
         self.rate = node.arguments["rate"] if rated else Literal("float", value=0.0)
 
     def at_start(self) -> np.ndarray:
@@ -52,7 +53,8 @@ class Births:
         return times[np.argsort(times, kind="stable")]
 
     def _count(self, time: float, frame: int = 0) -> int:
-        return int(plain_value(self.plan.node.arguments["count"], time, frame))
+        more = self.vertices if time == self.begin else 0
+        return more + int(plain_value(self.plan.node.arguments["count"], time, frame))
 
     def _bursts(self, interval: Interval) -> np.ndarray:
         """Return the times of what is made at once in (start, end]: `count` at begin + n every."""

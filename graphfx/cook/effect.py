@@ -129,11 +129,12 @@ class Effect:
 
         Raise LimitError for what would not fit.
         """
-        check_limits(self.plan, limits or CookLimits())
+        limits = limits or CookLimits()
+        check_limits(self.plan, limits)
         executor: Executor = (
             ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
         )
-        return Simulation(self.plan, executor, threads or 1)
+        return Simulation(self.plan, executor, threads or 1, limits.particles)
 
     def simulate(self, frame: int, threads: int | None = None, reference: bool = False) -> dict[str, dict[str, np.ndarray]]:
         """Return the columns of all particles alive at a frame, by emitter: numbers (n,), vectors (n, 3)."""

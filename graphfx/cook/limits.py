@@ -43,7 +43,8 @@ def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem |
     given = emitter.node
     if given.node_type.role != "emit":
         return None
-    rate = _greatest(given.arguments["rate"]) if "rate" in given.given or "count" not in given.given else 0.0
+    rated = "rate" in given.given or not ("count" in given.given or "vertices" in given.references)
+    rate = _greatest(given.arguments["rate"]) if rated else 0.0
     every = _greatest(given.arguments["every"])
     count = rate * min(span, life) + _greatest(given.arguments["count"]) * (1 + min(span, life) // every)
     if count <= limits.particles:

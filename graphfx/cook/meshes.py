@@ -69,6 +69,10 @@ class Meshes:
             kept[key] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
         return kept[key]
 
+    def vertices(self, path: str) -> int:
+        """Return how many vertices a mesh has."""
+        return len(self._located(self.flat.nodes[path]).vertices)
+
     def _located(self, node: FlatNode, check: Callable[[Mesh], None] | None = None) -> Mesh:
         """Return the mesh of a node where it was made, after a check of it; what is wrong is told at the node."""
         try:

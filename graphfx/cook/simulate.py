@@ -20,7 +20,7 @@ from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Clock, Interval
-from graphfx.plan.make import Plan
+from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.store.processors import Column, ProcessorSet
 
 MOST_ROUNDS = 1000
@@ -34,18 +34,25 @@ class Simulation:
         time = plan.flat.time
         self.plan = plan
         self.clock = Clock(time.fps, time.first, time.preroll)
-        self.programs = Programs(plan, executor, Meshes(plan.flat))
+        meshes = Meshes(plan.flat)
+        self.programs = Programs(plan, executor, meshes)
         self.particles: dict[str, Particles] = {}
         for path, emitter in plan.emitters.items():
             columns = {name: Column(type_) for name, type_ in emitter.attributes.columns.items()}
             store = ProcessorSet(columns, plan.precision, limit_particles, threads)
-            births = Births(emitter, self.clock.start) if emitter.node.node_type.role == "emit" else None
-            self.particles[path] = Particles(emitter, store, births)
+            self.particles[path] = Particles(emitter, store, self._births(emitter, meshes))
         self.interval = Interval(self.clock.start, self.clock.start, self.clock.first)
         """The time that was simulated last."""
         self.nursery = Nursery(self.programs)
-        self.spawns = Spawns(self.programs, self.particles)
+        self.spawns = Spawns(self.programs, self.particles, limit_particles)
         self.lives = Lives(self.programs, self.nursery, self.spawns)
+
+    def _births(self, emitter: EmitterPlan, meshes: Meshes) -> Births | None:
+        """Return when an emitter's particles are born; a spawn has no such times."""
+        if emitter.node.node_type.role != "emit":
+            return None
+        mesh = emitter.node.references.get("vertices")
+        return Births(emitter, self.clock.start, meshes.vertices(mesh) if mesh else 0)
 
     def frames(self, last: int) -> Iterator[int]:
         """Simulate up to frame `last`, yielding each frame's number from the first on."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,7 +16,17 @@ from graphfx.motion.clock import Interval
 from graphfx.plan.spawning import SpawnPlan
 
 MOST = 1 << 30
-"""Children of one spawn at once."""
+"""Particles of one source, whatever the limit."""
+BYTES_ON_THE_WAY = 300
+"""What a child takes, about, until it has arrived."""
+
+
+def memory() -> int:
+    """Return the bytes of memory that the machine has; without end where that is not told."""
+    try:
+        return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, ValueError, OSError):
+        return 1 << 62
 
 
 @dataclass
@@ -37,6 +48,8 @@ class Spawns:
 
     programs: Programs
     particles: dict[str, Particles]
+    limit: int | None = None
+    """Particles alive at once, of one source."""
 
     def at(self, moment: str, parents: Particles, interval: Interval, occasion: Occasion) -> None:
         """Let all spawns that wait for a moment make their children."""
@@ -63,14 +76,23 @@ class Spawns:
             self._send(spawn, parents, interval, occasion, counts)
 
     def _counts(self, spawn: SpawnPlan, offspring: np.ndarray, parents: Particles, rows: np.ndarray) -> np.ndarray:
-        total = float(np.nansum(offspring, dtype=np.float64))
-        if not total < MOST:
-            message = f"{total:,.0f} particles would be made at once, and the limit is {MOST:,}; lower the count"
-            raise LimitError(Problem(message, spawn.node.location, f"nodes.{spawn.path}"))
-        counts = np.nan_to_num(offspring, nan=0.0).astype(np.int64)
+        """Return how many children each parent has; raise LimitError where they would not fit."""
+        offspring = np.nan_to_num(offspring, nan=0.0, posinf=float(MOST))
         if np.isfinite(spawn.generations):
-            counts[self._generation(parents, rows) + 1 > spawn.generations] = 0
-        return counts
+            offspring[self._generation(parents, rows) + 1 > spawn.generations] = 0.0
+        home = self.particles[spawn.home]
+        waiting = sum(len(arrivals.times) for arrivals in home.arrivals)
+        made = float(offspring.sum(dtype=np.float64))
+        total, limit = home.store.count + waiting + made, min(self.limit or MOST, MOST)
+        needed = (waiting + made) * BYTES_ON_THE_WAY
+        if total > limit or needed > memory() / 2:
+            what = f"the limit is {limit:,}" if total > limit else f"{needed / 2**30:,.0f} GiB would be needed"
+            message = (
+                f"{total:,.0f} particles would be alive at once, and {what}; lower its count, its probability or its "
+                "generations" + (", or allow more with --limit-particles" if total > limit else "")
+            )
+            raise LimitError(Problem(message, spawn.node.location, f"nodes.{spawn.path}"))
+        return offspring.astype(np.int64)
 
     @staticmethod
     def _generation(parents: Particles, rows: np.ndarray) -> np.ndarray:
