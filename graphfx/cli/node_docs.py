@@ -39,7 +39,7 @@ def table(types: Mapping[str, NodeType]) -> str:
     lines: list[str] = []
     for kind, group in groupby(types.values(), key=lambda node_type: node_type.kind):
         lines += ["", kind, *(f"  {node_type.name:{width}}  {first_line(node_type)}" for node_type in group)]
-    return "\n".join([*lines[1:], "", "'graphfx nodes NAME' says all about one."])
+    return "\n".join(lines[1:])
 
 
 def describe(node_type: NodeType, library: Library) -> str:
@@ -77,17 +77,26 @@ def node_data(node_type: NodeType, library: Library) -> dict[str, Any]:
             "parameters": parameters, **facts(node_type), "sample": sample(node_type, library)}
 
 
-def mentions(word: str, types: Mapping[str, NodeType]) -> list[str]:
-    """Return the node types whose name or text speaks of a word, a line each; those named so first, then by their summary."""
+def mentions(word: str, texts: Mapping[str, tuple[str, ...]]) -> list[str]:
+    """Return what speaks of a word, a line each: names with their texts, the summary first, by which of them has it."""
     wanted = word.lower().replace("_", " ")
     ranks: dict[str, int] = {}
-    for name, node_type in types.items():
-        places = (name.replace("_", " "), first_line(node_type).lower(), node_type.doc.lower())
-        rank = next((rank for rank, place in enumerate(places) if wanted in place), None)
-        if rank is not None:
-            ranks[name] = rank
+    for name, places in texts.items():
+        found = [rank for rank, place in enumerate((name.replace("_", " "), *places)) if wanted in place.lower()]
+        if found:
+            ranks[name] = found[0]
     width = max(map(len, ranks), default=0)
-    return [f"{name:{width}}  {first_line(types[name])}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
+    return [f"{name:{width}}  {texts[name][0]}" for name in sorted(ranks, key=lambda name: (ranks[name], name))]
+
+
+def texts_of(types: Mapping[str, NodeType]) -> dict[str, tuple[str, ...]]:
+    """Return, of each node type, its summary, its docs, and those of its parameters."""
+    return {name: (first_line(each), each.doc, parameter_words(each.parameters)) for name, each in types.items()}
+
+
+def parameter_words(parameters: Mapping[str, Parameter]) -> str:
+    """Return the names and docs of parameters as one text."""
+    return " ".join(f"{parameter.name} {parameter.doc}" for parameter in parameters.values())
 
 
 def role(node_type: NodeType) -> str:

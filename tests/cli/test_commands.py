@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import jsonschema
 import pytest
 
 from graphfx.authoring.sample import sample
+from graphfx.cli.group_docs import describe_group, groups_of
 from graphfx.cli.node_docs import describe
 from graphfx.graph.check import check
-from graphfx.graph.document import document_of
+from graphfx.graph.document import document_of, read_document
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, bundled_root
 from graphfx.node.roles import treatment
 from graphfx.plan.make import make_plan
 
 LIBRARY = Library()
+GROUPS = groups_of(LIBRARY)
 GRAPHS = sorted((bundled_root() / "graphs").rglob("*.json"))
 
 
@@ -123,6 +126,25 @@ def test_nodes_as_data(invoke) -> None:
     assert (one["kind"], one["role"], one["writes"], one["given_by_the_engine"]) == ("operators", "flow", "position", "dt")
     assert one in every
     assert [node["name"] for node in every] == sorted(LIBRARY)
+
+
+def test_groups_are_listed_and_described(invoke) -> None:
+    """Groups of the library are listed below the node types; for one, its parameters, its streams, and a graph that runs."""
+    listed = invoke("nodes").out.partition("\ngroups\n")[2].splitlines()
+    assert "  gust       A gust of wind: two vortices of opposite turn, side by side, that travel from start to end." in listed
+    told = invoke("nodes", "gust").out
+    assert told.startswith("gust (group groups/gust.json)\n\nA gust of wind: ")
+    assert re.search(r"^  start \[m\] +point +\[-10, 3, 0\] +Where the gust sets out\.$", told, re.MULTILINE)
+    assert "\ntakes: particles\ngives: particles\n" in told
+
+
+@pytest.mark.parametrize("name", sorted(GROUPS))
+def test_sample_of_a_group_runs(name: str) -> None:
+    """The graph shown with a group is sound, and can be planned."""
+    text = describe_group(GROUPS[name], LIBRARY)
+    document = read_document(text[text.index("{"):])
+    assert check(document, LIBRARY) == []
+    assert make_plan(flatten(document, LIBRARY)).images
 
 
 DRIFT = '''"""Drift: a slow wind."""

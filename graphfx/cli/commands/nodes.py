@@ -18,12 +18,13 @@ from graphfx.errors import EXIT_GRAPH, Problem, UsageError, suggestion
 @debug
 @click.pass_context
 def command(context: click.Context, name: str | None, as_json: bool, library: tuple[str, ...]) -> None:
-    """List the node types, or describe one.
+    """List the node types and groups, or describe one.
 
     With NAME: what it does, its parameters with units and ranges, and a graph that runs. A word that is no
     node type finds those whose text has it.
     """
-    from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table
+    from graphfx.cli.group_docs import describe_group, group_lines, group_texts, groups_of
+    from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table, texts_of
     from graphfx.node import Library, library_roots
 
     nodes = Library(library_roots(library))
@@ -31,11 +32,20 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
         click.echo(json.dumps(node_data(nodes[name], nodes), indent=2) if as_json else describe(nodes[name], nodes))
         return
     types, problems = load_all(nodes)
+    groups = groups_of(nodes)
+    if name is not None and name in groups and not as_json:
+        click.echo(describe_group(groups[name], nodes))
+        return
     if name is not None:
-        found = mentions(name, types)
+        found = mentions(name, texts_of(types) | group_texts(groups))
         hint = " These speak of it:" if found else " 'graphfx nodes' lists them"
-        raise UsageError(Problem(f"there is no node type '{name}'.{suggestion(name, nodes)}{hint}", notes=tuple(found)))
-    click.echo(json.dumps([node_data(types[each], nodes) for each in sorted(types)], indent=2) if as_json else table(types))
+        near = suggestion(name, [*nodes, *groups])
+        raise UsageError(Problem(f"there is no node type '{name}'.{near}{hint}", notes=tuple(found)))
+    if as_json:
+        click.echo(json.dumps([node_data(types[each], nodes) for each in sorted(types)], indent=2))
+    else:
+        lines = [f"  {line}" for line in group_lines(groups)]
+        click.echo("\n".join([table(types), "", "groups", *lines, "", "'graphfx nodes NAME' says all about one."]))
     if problems:
         show(problems)
         context.exit(EXIT_GRAPH)
