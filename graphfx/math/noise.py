@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .primitives import floor, maximum, minimum, sqrt, where
+from .primitives import floor, fma, maximum, minimum, where
 from .vec3 import Vec3, cross, dot
 
 __all__ = ["curl_noise"]
@@ -26,6 +26,8 @@ __all__ = ["curl_noise"]
 PERIOD = 289.0
 SHARE = 0.0034602076124567475
 """1 / 289."""
+HALF = 0.0017301038062283738
+"""1 / 578: what keeps a quotient of whole numbers from the edge of a whole one."""
 EVEN = 0.84
 """Weight of n, with which u is as fast on the lattice points as between them."""
 UNIT = 0.5
@@ -34,8 +36,8 @@ UNIT = 0.5
 
 def permuted(x: Any) -> Any:
     """(34 x + 10) x modulo 289 for whole x from 0 to 288: a permutation of them, exact in float32 too."""
-    product = (x * 34.0 + 10.0) * x
-    return product - floor((product + 0.5) * SHARE) * PERIOD
+    product = fma(x, 34.0, 10.0) * x
+    return fma(floor(fma(product, SHARE, HALF)), -PERIOD, product)
 
 
 def wrapped(x: Any) -> Any:
@@ -45,12 +47,12 @@ def wrapped(x: Any) -> Any:
 
 def whole(x: Any) -> Any:
     """A whole x modulo 289; for an |x| above 2e6 still a number from 0 to 288."""
-    return minimum(maximum(x - floor((x + 0.5) * SHARE) * PERIOD, 0.0), 288.0)
+    return minimum(maximum(fma(floor(fma(x, SHARE, HALF)), -PERIOD, x), 0.0), 288.0)
 
 
 def fade(t: Any) -> Any:
     """6 t^5 - 15 t^4 + 10 t^3."""
-    return t * t * t * (t * (t * 6.0 - 15.0) + 10.0)
+    return t * t * t * fma(t, fma(t, 6.0, -15.0), 10.0)
 
 
 def fade_slope(t: Any) -> Any:
@@ -58,33 +60,42 @@ def fade_slope(t: Any) -> Any:
     return t * t * ((t - 1.0) * (t - 1.0) * 30.0)
 
 
-def part_of(h: Any, step: float) -> Any:
-    """The step h-th of 289 numbers from -1 to 1, modulo 289: exact until its last multiplication."""
-    x = h * step
-    return (x - floor((x + 0.5) * SHARE) * PERIOD) * 0.006920415224913495 - 0.9965397923875432
-
-
-def vectors_of(h: Any) -> tuple[Vec3, Vec3]:
-    """The h-th of 289 points that fill the six-dimensional cube from -1 to 1 evenly: 42^0 h, 42^1 h, ... [Korobov 1959]"""
-    return Vec3(part_of(h, 1.0), part_of(h, 42.0), part_of(h, 30.0)), Vec3(part_of(h, 104.0), part_of(h, 33.0), part_of(h, 230.0))
+def part_of(h: Any, later: Any, step: float, rest: Any, share: Any) -> Any:
+    """rest f(h) + share f(later), f(h) = h step mod 1: the step h-th of 289 numbers from 0 to 1."""
+    x, y = h * step, later * step
+    return fma(x - floor(x), rest, (y - floor(y)) * share)
 
 
 def corner(h: Any, time: Any, r: Vec3, w: Vec3, slope: Vec3) -> Vec3:
     """curl of w(r) (m x r + n): what one lattice point adds, with the fades along x, y and z and their slopes.
 
-    m and n go smoothly from one random pair to the next, each lattice point at its own times.
+    m and n are the h-th of 289 points that fill the six-dimensional cube from -1 to 1 evenly, 42^0 h, 42^1 h, ... modulo 289
+    [Korobov 1959]. They go smoothly from one to the next, each lattice point at its own times, with weights of which the
+    squares add up to 1 within 1 %.
     """
-    own = time + h * SHARE
+    own = fma(h, SHARE, time)
     past = floor(own)
-    share = (own - past) * (own - past) * (3.0 - 2.0 * (own - past))
-    scale = 1.0 / sqrt(share * share + (1.0 - share) * (1.0 - share))
+    t = own - past
+    blend = t * t * fma(t, -2.0, 3.0)
+    both = blend * (1.0 - blend)
+    scale = fma(both, fma(both, 3.354, 0.8184), 1.0) * 2.0
+    share, rest = blend * scale, (1.0 - blend) * scale
     index = whole(past)
-    m, n = vectors_of(permuted(wrapped(h + index)))
-    later_m, later_n = vectors_of(permuted(wrapped(h + wrapped(index + 1.0))))
-    m = m * ((1.0 - share) * scale) + later_m * (share * scale)
-    n = n * ((1.0 - share) * scale) + later_n * (share * scale)
-    grad = Vec3(slope.x * w.y * w.z, w.x * slope.y * w.z, w.x * w.y * slope.z)
-    return m * (w.x * w.y * w.z * 2.0 + dot(grad, r)) - r * dot(grad, m) + cross(grad, n) * EVEN
+    first = permuted(wrapped(h + index)) - 144.0
+    second = permuted(wrapped(h + wrapped(index + 1.0))) - 144.0
+    middle = (share + rest) * 0.4982698961937716
+    m = Vec3(
+        part_of(first, second, 0.0034602076124567475, rest, share) - middle,
+        part_of(first, second, 0.1453287197231834, rest, share) - middle,
+        part_of(first, second, 0.10380622837370242, rest, share) - middle,
+    )
+    n = Vec3(
+        part_of(first, second, 0.35986159169550175, rest, share) - middle,
+        part_of(first, second, 0.11418685121107267, rest, share) - middle,
+        part_of(first, second, -0.2041522491349481, rest, share) - middle,
+    )
+    grad = Vec3(slope.x * (w.y * w.z), slope.y * (w.x * w.z), slope.z * (w.x * w.y))
+    return m * fma(w.x * w.y * w.z, 2.0, dot(grad, r)) - r * dot(grad, m) + cross(grad, n) * EVEN
 
 
 def curl_noise(point: Vec3, time: Any, seed: Any) -> Vec3:
@@ -95,7 +106,7 @@ def curl_noise(point: Vec3, time: Any, seed: Any) -> Vec3:
     base = Vec3(floor(point.x), floor(point.y), floor(point.z))
     t = point - base
     faded, slope = Vec3(fade(t.x), fade(t.y), fade(t.z)), Vec3(fade_slope(t.x), fade_slope(t.y), fade_slope(t.z))
-    first = permuted(whole(floor((seed + 0.5) * SHARE)))
+    first = permuted(whole(floor(fma(seed, SHARE, HALF))))
     second = permuted(whole(seed))
     i, j, k = whole(base.x), whole(base.y), whole(base.z)
     near = plane(permuted(wrapped(k + first)), i, j, second, time, t, 0.0, faded, slope)

@@ -76,9 +76,9 @@ def test_smooth(what):
 
 
 def test_precisions_agree():
-    """float32 gives what float64 gives at the same numbers, to 1e-5."""
+    """float32 gives what float64 gives at the same numbers, to 2e-5."""
     points = POINTS.astype(np.float32)
-    assert np.abs(field(points, time=0.25, kind=np.float32) - field(points.astype(float), time=0.25)).max() <= 1e-5
+    assert np.abs(field(points, time=0.25, kind=np.float32) - field(points.astype(float), time=0.25)).max() <= 2e-5
 
 
 def test_repeats_after_289_cells():
