@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from graphfx.motion import basic, contact, events
+from graphfx.motion import barrier, basic, contact, events
 from graphfx.node import INFINITY
+from graphfx.plan.barriers import Barriers, is_barrier
+from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_of, remember, return_to
 from graphfx.plan.hits import Fate, Hit, Hits, response_of
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion, Mover
 from graphfx.program import Builder, Column, Operand, Uniform
 
-SEARCH_LIMIT = 60
-"""Evaluations in the search for one contact; ten are usual."""
 FIXED = {
     "stick": {"resilience": 0.0, "friction": 1.0, "friction_threshold": 0.0, "rest_speed": INFINITY},
     "slide": {"resilience": 0.0, "friction": 0.0, "rest_speed": INFINITY},
@@ -32,13 +32,8 @@ class Contacts:
         self.moments = moments
         self.fate = fate
         self.surfaces = motion.of("surface")
+        self.barriers = Barriers(motion)
         self.resolution = Uniform("8 eps", "float", RESOLUTION[precision])
-
-    def _distance(self, surface: Mover, moment: Moment, state: State) -> tuple[Column, Column]:
-        moment.builder.note = surface.node.path
-        operands = self.motion.arguments(surface, moment, state)
-        distance, normal = moment.builder.call(surface.function, *operands, name="distance normal")
-        return distance, normal
 
     def _response(self, surface: Mover, moment: Moment, names: tuple[str, ...]) -> list[Operand]:
         """Return the operands of how a particle answers; what sticks or slides has some of them fixed."""
@@ -50,12 +45,19 @@ class Contacts:
             for name in names
         ]
 
-    def main_step(self, moment: Moment, state: State, event: Column | None) -> Column | None:
-        """Write, after a whole step, which particles have met a surface; `sims` bounces them at once."""
+    def main_step(self, moment: Moment, state: State, event: Column | None, start: Column | None = None) -> Column | None:
+        """Write, after a whole step from `start`, which particles have met a surface; `sims` bounces them at once."""
         builder = moment.builder
         for surface in self.surfaces:
-            distance, normal = self._distance(surface, moment, state)
-            inside = self.motion.under_conditions(surface, moment).call(contact.is_inside, distance, name="inside")
+            concerned = self.motion.under_conditions(surface, moment)
+            if is_barrier(surface):
+                assert start is not None
+                plane = self.barriers.meet(surface, moment, state, concerned, (start, state.position))
+                inside = plane.hit
+                distance, normal = plane.distance(builder.under(inside), state.position)
+            else:
+                distance, normal = distance_of(self.motion, surface, moment, state)
+                inside = concerned.call(contact.is_inside, distance, name="inside")
             if self.motion.method == "sims" and not (self.hits.ends and self.fate is None):
                 self._sims_bounce(surface, builder.under(inside), moment, state, distance, normal)
                 continue
@@ -86,7 +88,7 @@ class Contacts:
     def own_step(
         self,
         builder: Builder,
-        moment_of: Callable[[Builder, Column], Moment],
+        moment_of: MomentOf,
         state: State,
         step: Column,
         resting: Column | None,
@@ -98,126 +100,86 @@ class Contacts:
         """
         whole = moment_of(builder, step)
         if self.motion.method == "sims" or not self.surfaces:
+            start = self.start(builder, state)
             self.motion.step(whole, state)
             fade(builder, step)
-            self.main_step(whole, state, None)
+            self.main_step(whole, state, None, start)
             return
-        first = self._remember(builder, state)
+        first = remember(builder, state)
         self.motion.select(whole)
-        starts = [self._distance(surface, whole, state) for surface in self.surfaces]
+        starts = [None if is_barrier(surface) else distance_of(self.motion, surface, whole, state) for surface in self.surfaces]
         self.motion.step(whole, state)
-        ends = [self._distance(surface, whole, state)[0] for surface in self.surfaces]
-        hits = [
-            self.motion.under_conditions(surface, whole).call(contact.is_inside, distance, name="inside")
-            for surface, distance in zip(self.surfaces, ends, strict=True)
-        ]
+        search = ContactSearch(self.motion, self.barriers, moment_of, state, first, self.resolution)
+        search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
+        candidates = [search.candidate(surface, whole, start) for surface, start in zip(self.surfaces, starts, strict=True)]
         best = builder.call(basic.copy_number, step, name="contact time")
-        times = []
-        for surface, start, end, hit in zip(self.surfaces, starts, ends, hits, strict=True):
-            found = self._search(surface, builder.under(hit), moment_of, state, first, start, end, step)
-            times.append(found)
-            builder.under(hit).call(basic.earlier, found, best, into=best)
-        met = hits[0]
-        for hit in hits[1:]:
-            met = builder.call(basic.either, met, hit, name="met")
+        for candidate in candidates:
+            search.find(candidate, builder.under(candidate.hit), step, best)
+        met = candidates[0].hit
+        for candidate in candidates[1:]:
+            met = builder.call(basic.either, met, candidate.hit, name="met")
         inner = builder.under(met)
-        self._return(inner, state, first)
+        return_to(inner, state, first)
         self.motion.step(moment_of(inner, best), state)
+        if self.barriers.surfaces:
+            search.shorten(inner, candidates, step, best)
         fade(builder, best)
         slides = builder.call(basic.but_not, met, met, name="slides")
-        for surface, hit, time in zip(self.surfaces, hits, times, strict=True):
-            chosen = builder.call(basic.both, hit, builder.under(hit).call(basic.is_equal, time, best), name="chosen")
-            slid = self._answer(surface, builder.under(chosen), moment_of, state, best, resting)
+        for candidate in candidates:
+            hit = candidate.hit
+            first_met = builder.under(hit).call(basic.is_equal, candidate.time, best)
+            chosen = builder.call(basic.both, hit, first_met, name="chosen")
+            slid = self._answer(candidate, builder.under(chosen), moment_of, state, best, resting, search.tolerance)
             slides = builder.call(basic.either, slides, slid)
         stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, step), name="stuck")
-        self._slide(builder.under(stuck), moment_of, state, step, best)
+        self._slide(builder.under(stuck), moment_of, state, step, best, search.tolerance)
         inner.call(basic.copy_number, best, into=step)
 
     def _slide(
-        self, builder: Builder, moment_of: Callable[[Builder, Column], Moment], state: State, step: Column, used: Column
+        self, builder: Builder, moment_of: MomentOf, state: State, step: Column, used: Column, tolerance: Column
     ) -> None:
         """Write a whole step along the surfaces, for particles that are pressed on one and cannot leave."""
         builder.call(basic.copy_number, step, into=used)
         moment = moment_of(builder, step)
+        begin = builder.call(basic.copy_vector, state.position, name="slide from") if self.barriers.surfaces else None
         self.motion.step(moment, state)
         for surface in self.surfaces:
-            distance, normal = self._distance(surface, moment, state)
+            if is_barrier(surface):
+                continue
+            distance, normal = distance_of(self.motion, surface, moment, state)
             into = (state.position, state.velocity)
             builder.call(contact.slide, *into, distance, normal, into=into)  # type: ignore[arg-type]
+        if begin is not None:
+            self.barriers.slide(moment, state, begin, tolerance)
 
-    @staticmethod
-    def _remember(builder: Builder, state: State) -> dict[str, Column]:
-        """Keep where the step starts."""
-        assert state.velocity is not None
-        return {
-            "position": builder.call(basic.copy_vector, state.position, name="first position"),
-            "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),
-        }
-
-    @staticmethod
-    def _return(builder: Builder, state: State, first: dict[str, Column]) -> None:
-        """Go back to the start of the step."""
-        builder.call(basic.copy_vector, first["position"], into=state.position)  # type: ignore[arg-type]
-        builder.call(basic.copy_vector, first["velocity"], into=state.velocity)  # type: ignore[arg-type]
-
-    def _search(
-        self,
-        surface: Mover,
-        builder: Builder,
-        moment_of: Callable[[Builder, Column], Moment],
-        state: State,
-        first: dict[str, Column],
-        start: tuple[Column, Column],
-        end: Column,
-        step: Column,
-    ) -> Column:
-        """Write the search for the instant of contact; return its column."""
-        builder.note = f"{surface.node.path}: find the contact"
-        tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
-        a, at_a, b, at_b, touching, at_once = builder.call(
-            contact.start_search,
-            start[0],
-            end,
-            start[1],
-            first["velocity"],
-            step,
-            tolerance,
-            name="a at_a b at_b touching at_once",
-        )
-        time = builder.call(basic.copy_number, a, name="time of contact")
-        side = builder.call(basic.difference, a, a, name="side")
-        searching = builder.call(basic.but_not, builder.mask, at_once, name="searching")
-        inner = builder.loop(searching, SEARCH_LIMIT, builder.note)
-        inner.call(contact.propose, a, at_a, b, at_b, into=time)
-        self._return(inner, state, first)
-        moment = moment_of(inner, time)
-        self.motion.step(moment, state)
-        distance, _ = self._distance(surface, moment, state)
-        bracket = (a, at_a, b, at_b, side)
-        inner.call(contact.narrow, *bracket, time, distance, touching, into=bracket)
-        inner.call(contact.is_open, a, b, distance, step, tolerance, self.resolution, into=searching)
-        return time
+    def start(self, builder: Builder, state: State) -> Column | None:
+        """Keep where a step starts, if a surface asks for it."""
+        return builder.call(basic.copy_vector, state.position, name="start") if self.barriers.surfaces else None
 
     def _answer(
         self,
-        surface: Mover,
+        candidate: Candidate,
         builder: Builder,
-        moment_of: Callable[[Builder, Column], Moment],
+        moment_of: MomentOf,
         state: State,
         time: Column,
         resting: Column | None,
+        tolerance: Column,
     ) -> Column:
         """Write what a surface does to the particles that meet it; return which of them slide."""
-        moment = moment_of(builder, time)
-        distance, normal = self._distance(surface, moment, state)
+        moment, surface = moment_of(builder, time), candidate.surface
+        distance, normal = distance_of(self.motion, surface, moment, state, candidate.plane)
+        if candidate.plane is not None:
+            distance = builder.call(barrier.from_above, distance, tolerance, name="distance")
         response = self._response(surface, moment, ("resilience", "friction", "friction_threshold", "rest_speed"))
         stopped, sliding = Column("stopped", "bool"), Column("sliding", "bool")
         into: Any = (state.position, state.velocity, stopped, sliding)
         concerned = self.hits.concern(surface)
-        speed = builder.call(events.approach, state.velocity, normal, name="speed") if concerned else None
+        speed = builder.call(events.approach, into[1], normal, name="speed") if concerned else None
         builder.call(contact.respond, *into[:2], distance, normal, *response, into=into)
         if speed is not None:
             self._tell(Hit(surface, builder, into[0], normal, speed, stopped), moment, state, moment.end())
         if resting is not None:
             builder.under(builder.program.context).call(basic.either, resting, stopped, into=resting)
         return sliding
+

@@ -83,10 +83,11 @@ class FrameWriter:
             if k == 0:
                 self.motion.prepare(moment, state)
             before = active.call(basic.copy_vector, state.position, name="before") if k == opening_step else None
+            start = contacts.start(active, state)
             self.motion.step(moment, state)
             if self.fades:
                 self.fade(moments.whole_step(builder, k, state), state)
-            event = contacts.main_step(moment, state, event)
+            event = contacts.main_step(moment, state, event, start)
             if before is not None:
                 active.note = "motion blur"
                 opening = [made.time(active, name) for name in (("start", k), ("end", k), "opening")]

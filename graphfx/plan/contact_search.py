@@ -1,0 +1,160 @@
+"""Write the search for contacts within a step: who meets a surface, and when."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from graphfx.motion import barrier, basic, contact
+from graphfx.plan.barriers import Barriers, Plane
+from graphfx.plan.moment import Moment, State
+from graphfx.plan.motion import Motion, Mover
+from graphfx.program import Builder, Column, Operand, Uniform
+
+MomentOf = Callable[[Builder, Column], Moment]
+SEARCH_LIMIT = 60
+"""Evaluations in the search for one contact; ten are usual."""
+TRIES = 16
+"""How often a way is shortened because the contact found lies behind another face."""
+
+
+def distance_of(
+    motion: Motion, surface: Mover, moment: Moment, state: State, plane: Plane | None = None
+) -> tuple[Column, Column]:
+    """Write the signed distance from a surface, or from the plane at which it is met, and the normal there."""
+    moment.builder.note = surface.node.path
+    if plane is not None:
+        return plane.distance(moment.builder, state.position)
+    operands = motion.arguments(surface, moment, state)
+    distance, normal = moment.builder.call(surface.function, *operands, name="distance normal")
+    return distance, normal
+
+
+def remember(builder: Builder, state: State) -> dict[str, Column]:
+    """Keep where a step starts."""
+    assert state.velocity is not None
+    return {
+        "position": builder.call(basic.copy_vector, state.position, name="first position"),
+        "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),
+    }
+
+
+def return_to(builder: Builder, state: State, first: dict[str, Column]) -> None:
+    """Go back to the start of a step."""
+    builder.call(basic.copy_vector, first["position"], into=state.position)  # type: ignore[arg-type]
+    builder.call(basic.copy_vector, first["velocity"], into=state.velocity)  # type: ignore[arg-type]
+
+
+@dataclass
+class Candidate:
+    """A surface that particles may meet in a step: who does, when, its distance and normal at the start and that at the end."""
+
+    surface: Mover
+    hit: Column
+    start: tuple[Column, Column]
+    end: Column
+    plane: Plane | None = None
+    concerned: Column | None = None
+    time: Column = field(default_factory=lambda: Column("time of contact", "float"))
+
+
+class ContactSearch:
+    """The search for the contacts of one step that starts at `first`."""
+
+    tolerance: Column
+
+    def __init__(
+        self,
+        motion: Motion,
+        barriers: Barriers,
+        moment_of: MomentOf,
+        state: State,
+        first: dict[str, Column],
+        resolution: Uniform,
+    ):
+        self.motion, self.barriers, self.moment_of = motion, barriers, moment_of
+        self.state, self.first, self.resolution = state, first, resolution
+
+    def candidate(self, surface: Mover, whole: Moment, start: tuple[Column, Column] | None) -> Candidate:
+        """Write who meets a surface in the whole step."""
+        if start is not None:
+            end = distance_of(self.motion, surface, whole, self.state)[0]
+            hit = self.motion.under_conditions(surface, whole).call(contact.is_inside, end, name="inside")
+            return Candidate(surface, hit, start, end)
+        concerned = self.motion.under_conditions(surface, whole)
+        plane = self.barriers.meet(surface, whole, self.state, concerned, (self.first["position"], self.state.position))
+        return self._of_plane(plane, whole.builder, self.state.position, concerned.mask)
+
+    def _of_plane(self, plane: Plane, builder: Builder, end: Operand, concerned: Column | None = None) -> Candidate:
+        inside = builder.under(plane.hit)
+        start = plane.distance(inside, self.first["position"])
+        below = inside.call(barrier.surely_below, plane.distance(inside, end)[0], self.tolerance)
+        return Candidate(plane.surface, plane.hit, start, below, plane, concerned)
+
+    def find(self, candidate: Candidate, builder: Builder, step: Column, best: Column) -> None:
+        """Write the search for the instant of a contact within `step`; `best` becomes it if it is earlier."""
+        builder.note = f"{candidate.surface.node.path}: find the contact"
+        state, resolution = self.state, self.resolution
+        a, at_a, b, at_b, touching, at_once = builder.call(
+            contact.start_search,
+            candidate.start[0],
+            candidate.end,
+            candidate.start[1],
+            self.first["velocity"],
+            step,
+            self.tolerance,
+            name="a at_a b at_b touching at_once",
+        )
+        time = candidate.time
+        builder.call(basic.copy_number, a, into=time)
+        side = builder.call(basic.difference, a, a, name="side")
+        searching = builder.call(basic.but_not, builder.mask, at_once, name="searching")
+        inner = builder.loop(searching, SEARCH_LIMIT, builder.note)
+        inner.call(contact.propose, a, at_a, b, at_b, into=time)
+        return_to(inner, state, self.first)
+        moment = self.moment_of(inner, time)
+        self.motion.step(moment, state)
+        distance, _ = distance_of(self.motion, candidate.surface, moment, state, candidate.plane)
+        bracket = (a, at_a, b, at_b, side)
+        inner.call(contact.narrow, *bracket, time, distance, touching, into=bracket)
+        inner.call(contact.is_open, a, b, distance, step, self.tolerance, resolution, into=searching)
+        builder.call(basic.earlier, time, best, into=best)
+
+    def shorten(self, builder: Builder, candidates: list[Candidate], step: Column, best: Column) -> None:
+        """Write the check that nothing stands in the way to the contact: where it does, that is the contact, and so on.
+
+        Who still finds something in the way at last, in a narrow corner, is turned back with half the speed.
+        """
+        doubtful = builder.call(basic.both, builder.mask, builder.mask, name="doubtful")
+        inner = builder.loop(doubtful, TRIES, "nothing in the way")
+        again = inner.call(basic.but_not, doubtful, doubtful, name="again")
+        for candidate in candidates:
+            if candidate.plane is not None:
+                inner.call(basic.either, again, self._again(inner, candidate, best), into=again)
+        inner.call(basic.both, again, again, into=doubtful)
+        left = builder.under(doubtful)
+        return_to(left, self.state, self.first)
+        left.call(barrier.turned_back, self.state.velocity, into=self.state.velocity)  # type: ignore[arg-type]
+        left.call(basic.copy_number, step, into=best)
+        for candidate in candidates:
+            builder.call(basic.but_not, candidate.hit, doubtful, into=candidate.hit)
+
+    def _again(self, inner: Builder, candidate: Candidate, best: Column) -> Column:
+        """Write whose way to the contact meets a surface once more, and have that be the contact."""
+        assert candidate.plane is not None and candidate.concerned is not None
+        concerned = inner.under(inner.call(basic.both, inner.mask, candidate.concerned))
+        put = concerned.call(basic.copy_vector, self.state.position, name="put")
+        own = concerned.under(concerned.call(basic.both, concerned.mask, candidate.hit))
+        own.call(barrier.put_above, put, candidate.plane.normal, self.tolerance, candidate.time, best, into=put)
+        moment = self.moment_of(concerned, best)
+        plane = self.barriers.meet(candidate.surface, moment, self.state, concerned, (self.first["position"], put))
+        fresh = inner.under(plane.hit)
+        found = self._of_plane(plane, fresh, put)
+        candidate.plane.take(fresh, plane)
+        found.plane, found.time = candidate.plane, candidate.time
+        limit = fresh.call(basic.copy_number, best, name="limit")
+        self.find(found, fresh, limit, best)
+        inner.call(basic.either, candidate.hit, plane.hit, into=candidate.hit)
+        return_to(fresh, self.state, self.first)
+        self.motion.step(self.moment_of(fresh, best), self.state)
+        return plane.hit
