@@ -16,10 +16,15 @@ import pytest
 from graphfx.cook.effect import load
 from graphfx.machine.draw import draw_kernel
 from graphfx.machine.kernels import _kernel_of
-from graphfx.program import Call, Draw
+from graphfx.motion import spring
+from graphfx.node import Library, library_roots
+from graphfx.plan.values import node_function
+from graphfx.program import Call, Draw, Function
 
 ROOT = Path(__file__).resolve().parents[2]
 GRAPHS = {"snow": ROOT / "graphs/effects/snow.json", "ten operators": ROOT / "tests/benchmarks/ten_operators.json"}
+LIBRARY = Library(library_roots())
+OPERATORS = [name for name in LIBRARY if LIBRARY.kind_of(name) == "operators" and not LIBRARY[name].language]
 FEATURES = llvmlite.binding.get_host_cpu_features()
 ARITHMETIC = r"v(?:add|sub|mul|div|sqrt|max|min|cmp\w*|blendm?|blendv|rndscale|round|fn?m(?:add|sub)\d+|cvt\w+|xor|and|mova|movu)"
 PACKED = re.compile(rf"\s{ARITHMETIC}p[sd]\s.*%[yz]mm")
@@ -68,6 +73,29 @@ def test_every_kernel_is_vector_code(graph, precision, tmp_path, monkeypatch):
         types = {*instruction.function.arguments, *instruction.function.results} if called else {"draw"}
         found += faults(name, types, code_of(instruction, precision))
     assert not found
+
+
+@pytest.mark.parametrize("name", OPERATORS)
+def test_every_operator_is_vector_code(name, tmp_path, monkeypatch):
+    """The kernel of every operator of the library is vector code, but for those that declare branches."""
+    monkeypatch.setenv("GRAPHFX_CACHE", str(tmp_path))
+    node_type = LIBRARY[name]
+    if node_type.branches:
+        pytest.skip("it goes lane by lane, and says so")
+    function = node_function(node_type)
+    code = _kernel_of.__wrapped__(function, 32, 0).assembly
+    assert not faults(name, {*function.arguments, *function.results}, code)
+
+
+SPRINGS = [f for f in vars(spring).values() if isinstance(f, Function)]
+
+
+@pytest.mark.parametrize("function", SPRINGS, ids=lambda function: function.name)
+def test_springs_are_vector_code(function, tmp_path, monkeypatch):
+    """The kernels that solve springs are vector code."""
+    monkeypatch.setenv("GRAPHFX_CACHE", str(tmp_path))
+    code = _kernel_of.__wrapped__(function, 32, 0).assembly
+    assert not faults(function.name, {*function.arguments, *function.results}, code)
 
 
 def test_a_kernel_that_goes_lane_by_lane_would_be_seen(tmp_path, monkeypatch):
