@@ -106,6 +106,7 @@ def test_when_names_the_surfaces_themselves(when: Any, moment: str, surfaces: tu
     nodes = {**SKY, "fall": {"type": "stack", "from": "sky", "ops": [{"type": "bounce_plane", "id": "low"}, {"type": "spiral"},
                                                                    {"type": "bounce_plane"}]},
              "floor": {"type": "floor", "from": "fall"},
+             "falling": {"type": "stack", "from": "fall", "ops": [{"type": "bounce_plane"}]},
              "it": {"type": "set", "from": "floor", "when": when, "set": {"radius": 1}}}
     found = flat(nodes, library, tmp_path, use={"floor": "floor.json"}).nodes["it"]
     assert (found.when, found.surfaces) == (moment, surfaces)
@@ -252,7 +253,8 @@ def test_meshes_are_paths_wherever_they_are_named(library: Library, tmp_path: Pa
     inner = {"v": {"type": "cling", "from": "p", "mesh": {"param": "shape"}, "only": "near"},
              "near": {"type": "within", "mesh": "own"}, "own": {"type": "ball"},
              "w": {"type": "push", "from": "v", "by": {"spot_on": {"mesh": {"param": "shape"}}},
-                   "only": {"within": {"mesh": {"param": "shape"}}}}}
+                   "only": {"within": {"mesh": {"param": "shape"}}}},
+             "x": {"type": "push", "from": "w", "by": {"spot_on": {"mesh": "own"}}}}
     group = {"graphfx": 1, "params": {"shape": {"type": "mesh"}}, "inputs": {"p": {}}, "outputs": {"p": "w"}, "nodes": inner}
     (tmp_path / "g.json").write_text(json.dumps(group))
     (tmp_path / "outer.json").write_text(json.dumps(group | {"use": {"g": "g.json"}, "nodes": {
@@ -264,7 +266,7 @@ def test_meshes_are_paths_wherever_they_are_named(library: Library, tmp_path: Pa
     assert meshes(found["sky"].sets["position"]) == ["round"]
     assert [found[path].references["mesh"] for path in ("last", "one/v", "two/w/v")] == ["round"] * 3
     assert [meshes(found[path].only) for path in ("one/v", "two/w/v", "two/w/w")] == [["one/own"], ["two/w/own"], ["round"]]
-    assert meshes(found["two/w/w"].arguments["by"]) == ["round"]
+    assert [meshes(found[path].arguments["by"]) for path in ("two/w/w", "two/w/x")] == [["round"], ["two/w/own"]]
 
 
 def test_a_group_that_needs_a_mesh_says_so(library: Library, tmp_path: Path) -> None:
