@@ -40,17 +40,23 @@ class Places:
     """The lines that wrote the parts of a document, by JSON path."""
 
     def __init__(self) -> None:
-        self._lines: dict[str, Location] = {}
+        self._lines: dict[str, tuple[int, Location]] = {}
+        self._count = 0
 
     def note(self, path: str, location: Location) -> None:
-        """Remember which line wrote a part; what was noted inside it is older and forgotten."""
-        self._lines = {known: line for known, line in self._lines.items() if not _inside(known, path)}
-        self._lines[path] = location
+        """Remember which line wrote a part; what was noted inside it before is out of date."""
+        self._count += 1
+        self._lines[path] = self._count, location
 
     def of(self, path: str) -> Location:
         """Return the line that wrote a part, or the smallest noted part that holds it."""
-        around = [known for known in self._lines if known == path or _inside(path, known)]
-        return self._lines[max(around, key=len)] if around else Location()
+        around = sorted((known for known in self._lines if known == path or _inside(path, known)), key=len)
+        found, newest = Location(), 0
+        for known in around:
+            count, location = self._lines[known]
+            if count >= newest:
+                found, newest = location, count
+        return found
 
     def told(self, problems: Iterable[Problem], file: str) -> list[Problem]:
         """Return the problems of the document called `file` with lines of Python instead of places in its text."""
