@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import Particles, padded
+from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Occasion, Spawns
 from graphfx.errors import CookError, Problem
@@ -61,7 +61,7 @@ class Lives:
     ) -> tuple[np.ndarray, np.ndarray]:
         """Run to the next event of each row; return the rows that go on after it, and from when."""
         plan = particles.plan
-        death = particles.death()[rows] - interval.start if plan.mortal else np.full(len(rows), np.inf)
+        death = particles.death(rows) - interval.start if plan.mortal else np.full(len(rows), np.inf)
         ends = self._run(particles, interval, rows, begin, np.minimum(death, interval.length))
         held = ends.fate >= HELD
         dies = (ends.fate == DIES) | (ends.fate == HELD + DIES)
@@ -195,7 +195,7 @@ class Lives:
         rows = np.arange(count)
         self.programs.run(made, particles, interval, rows if kills else None, by_place={"fate": (fate,)} if kills else None)
         if kills:
-            ended = np.setdiff1d(np.flatnonzero(fate[:count] > 0), particles.dying)
+            ended = np.flatnonzero((fate[:count] > 0) & ~flagged(particles.dying, count))
             when = np.full(len(ended), interval.length)
             self._die(particles, interval, ended, when)
             particles.note_deaths(ended, interval.start + when)

@@ -73,10 +73,11 @@ class Particles:
         parts = constant if isinstance(constant, tuple) else (constant,)
         return tuple(padded(np.full(len(rows), part), dtype) for part in parts)
 
-    def death(self) -> np.ndarray:
-        """Return when each particle dies [s]."""
-        life = self.store.column("life")[0].astype(np.float64) if "life" in self.store.columns else float(self.value("life"))
-        return self.store.column("birth")[0] + life
+    def death(self, rows: Any = slice(None)) -> np.ndarray:
+        """Return when particles die of age [s]: all, or those of some rows."""
+        if "life" in self.store.columns:
+            return self.store.column("birth")[0][rows] + self.store.column("life")[0][rows]
+        return self.store.column("birth")[0][rows] + float(self.value("life"))
 
     def remove_dead(self) -> None:
         """Remove the particles that died before the frame, and forget who was born before it."""
@@ -88,9 +89,11 @@ class Particles:
 
     def note_births(self, rows: np.ndarray, times: np.ndarray) -> None:
         """Note which rows begin a life within the interval, and when; the last beginning counts."""
-        again = np.isin(self.born, rows, invert=True)
-        self.born = np.concatenate([self.born[again], rows])
-        self.born_at = np.concatenate([self.born_at[again], times])
+        if len(self.born):
+            kept = ~flagged(rows, self.store.count)[self.born]
+            self.born, self.born_at = self.born[kept], self.born_at[kept]
+        self.born = np.concatenate([self.born, rows])
+        self.born_at = np.concatenate([self.born_at, times])
 
     def note_deaths(self, rows: np.ndarray, times: np.ndarray) -> None:
         """Note which rows end within the interval, and when."""
@@ -103,6 +106,13 @@ class Particles:
         if "tail" in self.store.columns and len(rows):
             for tail, position in zip(self.store.arrays("tail"), self.store.arrays("position"), strict=True):
                 tail[rows] = position[rows]
+
+
+def flagged(rows: np.ndarray, count: int) -> np.ndarray:
+    """Return for each of `count` rows whether it is listed."""
+    flags = np.zeros(count, bool)
+    flags[rows] = True
+    return flags
 
 
 def blocks(count: int) -> int:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.particles import Particles, padded
+from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.simulate import Simulation
 from graphfx.graph.flat import FlatNode
 from graphfx.plan.make import Drawn, ImagePlan, plain_value
@@ -65,7 +65,7 @@ def streaks_of(chosen: Chosen, look: dict[str, Any], time: float, opening: float
     share = _shares(particles, time, opening)
     if share is not None:
         drawn = np.flatnonzero(share > 0)
-        shown = drawn if shown is None else np.intersect1d(drawn, shown)
+        shown = drawn if shown is None else drawn[flagged(shown, store.count)[drawn]]
 
     def column(name: str) -> Any:
         value = particles.value(name)

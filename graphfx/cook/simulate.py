@@ -15,7 +15,7 @@ from graphfx.cook.executor import Executor
 from graphfx.cook.lives import Lives
 from graphfx.cook.meshes import Meshes
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import NO_ROWS, Particles
+from graphfx.cook.particles import NO_ROWS, Particles, flagged
 from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Spawns
 from graphfx.errors import CookError, Problem
@@ -109,7 +109,7 @@ class Simulation:
         self.lives.begin(particles, interval, born, begin)
         arrived, arrived_begin = self.nursery.receive(particles, interval)
         self.lives.begin(particles, interval, arrived, arrived_begin)
-        dying = np.flatnonzero(particles.death()[:before] <= interval.end) if plan.mortal else NO_ROWS
+        dying = np.flatnonzero(particles.death(slice(before)) <= interval.end) if plan.mortal else NO_ROWS
         self.lives.leave_trails(particles, interval, before, np.concatenate([begin, arrived_begin]))
         rejected = NO_ROWS
         if plan.main is not None:
@@ -117,7 +117,9 @@ class Simulation:
                 rejected = self.programs.run(plan.main, particles, interval, excluded=dying, count=before)
             else:  # a shorter interval begins the preroll; the shutter opens in another of its steps than is usual
                 rejected = np.arange(before)
-        old = np.union1d(dying, rejected).astype(np.int64)
+        either = flagged(dying, before)
+        either[rejected] = True
+        old = np.flatnonzero(either)
         particles.put_tails(old)
         rows = np.concatenate([old, born, arrived])
         self.lives.go_on(particles, interval, rows, np.concatenate([np.zeros(len(old)), begin, arrived_begin]))
