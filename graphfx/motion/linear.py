@@ -63,6 +63,11 @@ def turn(velocity: Any, rate: Any, dt: Any, c: Any, wave: Any, bow: Any) -> Any:
     return velocity * c + cross(rate, velocity) * (wave * dt) + rate * (dot(rate, velocity) * dt * dt * bow)
 
 
+SERIES_TERMS = 18
+"""Enough for 1 / 18! < 2^-52 at |z| = 1."""
+RECIPROCALS = (0.0, *(1.0 / n for n in range(1, SERIES_TERMS + 3)))
+
+
 def complex_phi(x: Any, y: Any, real: Any, imaginary: Any, next_real: float) -> Any:
     """Return (f - next_real) / z for f = real + i imaginary and z = x + i y."""
     size = x * x + y * y
@@ -74,13 +79,9 @@ def complex_series(x: Any, y: Any, first: int, terms: int) -> Any:
     """Return the sum of z^k / (k + 1) ... (k + first), times 1 / first!... by Horner's rule, for |z| < 1."""
     real, imaginary = x * 0.0 + 1.0, y * 0.0
     for back in range(terms):
-        scale = 1.0 / (first + terms - back)
+        scale = RECIPROCALS[first + terms - back]
         real, imaginary = 1.0 + (real * x - imaginary * y) * scale, (real * y + imaginary * x) * scale
     return real, imaginary
-
-
-SERIES_TERMS = 18
-"""Enough for 1 / 18! < 2^-52 at |z| = 1."""
 
 
 @function("vec3 vec3 vec3 float vec3 float", "vec3 vec3")

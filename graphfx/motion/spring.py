@@ -17,6 +17,7 @@ exponential: McCurdy, Ng and Parlett 1984]
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from graphfx.math import (
@@ -37,6 +38,9 @@ from graphfx.math import (
 )
 from graphfx.motion.linear import SERIES_TERMS, complex_phi, complex_series
 from graphfx.program import function
+
+SCALES = tuple(1.0 / math.factorial(n + 2) for n in range(SERIES_TERMS + 2))
+"""What the n-th of the symmetric polynomials counts for: 1 / (n + 2)!."""
 
 
 @function("vec3 float vec3 vec3", "vec3")
@@ -67,11 +71,10 @@ def spring_factors(damping: Any, stiffness: Any, dt: Any) -> Any:
 
 def _pushed_near(x_plus_y: Any, xy: Any) -> Any:
     """e[0, x, y] for |x|, |y| < 1: the sum of h_n / (n + 2)! for h_n the complete symmetric polynomials, which are real."""
-    before, term, total, scale = x_plus_y * 0.0, x_plus_y * 0.0 + 1.0, x_plus_y * 0.0 + 0.5, 0.5
+    before, term, total = x_plus_y * 0.0, x_plus_y * 0.0 + 1.0, x_plus_y * 0.0 + 0.5
     for n in range(1, SERIES_TERMS + 2):
-        scale = scale / (n + 2)
         before, term = term, x_plus_y * term - xy * before
-        total = total + term * scale
+        total = total + term * SCALES[n]
     return total
 
 
@@ -115,13 +118,12 @@ def _complex_phi1(x: Any, y: Any, real: Any, imaginary: Any) -> Any:
 def _complex_pushed_near(p_r: Any, p_i: Any, xy: Any) -> Any:
     """e[0, x, y] for |x|, |y| < 1, x + y = p_r + i p_i and x y real: as `_pushed_near`."""
     zero = p_r * 0.0
-    before_r, before_i, term_r, term_i, scale = zero, zero, zero + 1.0, zero, 0.5
+    before_r, before_i, term_r, term_i = zero, zero, zero + 1.0, zero
     total_r, total_i = zero + 0.5, zero
     for n in range(1, SERIES_TERMS + 2):
-        scale = scale / (n + 2)
         next_r, next_i = p_r * term_r - p_i * term_i - xy * before_r, p_r * term_i + p_i * term_r - xy * before_i
         before_r, before_i, term_r, term_i = term_r, term_i, next_r, next_i
-        total_r, total_i = total_r + term_r * scale, total_i + term_i * scale
+        total_r, total_i = total_r + term_r * SCALES[n], total_i + term_i * SCALES[n]
     return total_r, total_i
 
 
