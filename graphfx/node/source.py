@@ -14,7 +14,7 @@ def definition(function: Callable[..., Any]) -> tuple[ast.FunctionDef, int] | No
     try:
         lines, first = inspect.getsourcelines(function)
         tree = ast.parse(textwrap.dedent("".join(lines))).body[0]
-    except (OSError, SyntaxError):
+    except (OSError, SyntaxError, TypeError):
         return None
     return (tree, first) if isinstance(tree, ast.FunctionDef) else None
 

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import graphfx
+from graphfx.authoring.values import plain
 from graphfx.graph.check import check
 from graphfx.graph.document import document_of
 from graphfx.node import Library, bundled_root
@@ -80,6 +81,27 @@ def test_values_are_written_as_json_has_them() -> None:
     assert g.data["nodes"]["source"] == {"type": "emit", "life": "infinity", "set": {"position": [1, 2, 3], "mass": 0.5}}
     assert g.data["nodes"]["turn"] == {"type": "vortex", "only": {"expr": "age > 1"}, "during": [0, 2], "from": "source",
                                        "magnitude": {"ramp": [[0, 0], [1, 2]], "over": "age"}}
+
+
+def test_infinities_have_their_words() -> None:
+    """Both infinities are written as the words that graphs know, wherever they stand."""
+    assert plain((float("inf"), float("-inf"), np.float64("-inf"))) == ["infinity", "-infinity", "-infinity"]
+
+
+def test_groups_with_several_streams(tmp_path: Path) -> None:
+    """A group is a method too: with `inputs` it takes several streams, and each of its outputs is had by name."""
+    crossing = graphfx.Graph("Two streams change places.")
+    a, b = crossing.input("a", doc="One."), crossing.input("b", doc="The other.")
+    crossing.output(c=b.gravity("fall"), d=a.gravity("sink"))
+    crossing.save(tmp_path / "crossing.json")
+    g = graphfx.Graph(folder=tmp_path)
+    g.use("crossing.json", "cross")
+    left, right = g.emit("left"), g.emit("right")
+    both = left.cross("both", inputs={"a": left, "b": right})
+    g.image("frames", of=[both["c"], both["d"]], camera=g.camera("view"))
+    assert g.problems() == []
+    assert g.data["nodes"]["both"] == {"type": "cross", "inputs": {"a": "left", "b": "right"}}
+    assert g.data["nodes"]["frames"]["from"] == ["both.c", "both.d"]
 
 
 def test_conditions_combine() -> None:

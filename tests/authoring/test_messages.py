@@ -147,8 +147,8 @@ def test_unknown_names_are_no_attributes() -> None:
 def test_line_of_what_is_written_again() -> None:
     """What is written again is told at its new line, and not at those of its former parts."""
     g = graphfx.Graph()
-    g.values(speed=g.in_box(min=(0, 0, 0)))
+    g.values(speed=g.in_box(min=g.expr("vec(0, 0, 0)")))
     g.values(speed=2)
     written = line() - 1
     g._draft.data["values"]["speed"] = {"in_box": {"min": "x"}}
-    assert [problem.location.line for problem in g.problems() if problem.path.startswith("values")] == [written]
+    assert [problem.location.line for problem in g.problems() if problem.path == "values.speed.in_box.min"] == [written]

@@ -11,7 +11,7 @@ import pytest
 
 from graphfx.authoring.sample import sample
 from graphfx.cli.group_docs import describe_group, groups_of
-from graphfx.cli.node_docs import describe
+from graphfx.cli.node_docs import describe, mentions
 from graphfx.graph.check import check
 from graphfx.graph.document import document_of, read_document
 from graphfx.graph.flatten import flatten
@@ -116,6 +116,12 @@ def test_words_find_nodes(invoke) -> None:
                                            f"  gravity  {LIBRARY['gravity'].doc.splitlines()[0]}\n")
     swirl = invoke("nodes", "swirl").err.splitlines()
     assert swirl[1].split()[0] == "vortex"
+
+
+def test_names_come_before_texts() -> None:
+    """Of what speaks of a word, what is named so comes first, then by summary, then by the rest."""
+    texts = {"a": ("One.", "a fall"), "b": ("Two falls.", ""), "fall_down": ("Three.", ""), "c": ("Four.", "")}
+    assert mentions("Fall", texts) == ["fall_down  Three.", "b          Two falls.", "a          One."]
 
 
 def test_nodes_as_data(invoke) -> None:
