@@ -12,7 +12,7 @@ from graphfx.node.source import wrong_return
 
 def inner(position, velocity):
     def turned(vector):
-        return vector
+        return -vector
 
     return turned(position), velocity
 
