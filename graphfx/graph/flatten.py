@@ -18,6 +18,7 @@ from graphfx.graph.check_document import read_graph, starting_from
 from graphfx.graph.check_nodes import why_uniform
 from graphfx.graph.check_values import default_value
 from graphfx.graph.checking import Checking, in_order
+from graphfx.graph.dependence import of_parent
 from graphfx.graph.document import Document, load_document
 from graphfx.graph.flat import Cluster, FlatGraph, FlatNode
 from graphfx.graph.limits import Limits
@@ -30,7 +31,7 @@ from graphfx.graph.sets import wanted_of
 from graphfx.graph.substitute import Substitution, both, overlap
 from graphfx.graph.values import Expression, Literal, Name, Value
 from graphfx.graph.wiring import Instance, Wiring
-from graphfx.node import Library, Parameter
+from graphfx.node import ATTRIBUTES, Attribute, Library, Parameter
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,8 @@ class Flattener:
             arguments[parameter.name] = value
         own = instance.graph.attributes
         sets = {name: instance.substitution.value(value, wanted_of(name, own)) for name, value in entry.sets.items()}
+        if entry.role == "spawn":
+            _read_parents(arguments, sets, own)
         references = {name: found.value for name, parameter in node_type.parameters.items() if parameter.type in REFERENCE_TYPES
                       and isinstance(found := instance.substitution.argument(entry, parameter), Literal)}
         makes = entry.kind in ("emitters", "operators")
@@ -167,6 +170,15 @@ def _default(entry: Entry, parameter: Parameter) -> Value:
 def _bursts(count: Value | None) -> bool:
     """Return whether a count that a document states makes particles."""
     return count is not None and not (isinstance(count, Literal) and count.value == 0)
+
+
+def _read_parents(arguments: dict[str, Value], sets: dict[str, Value], own: Mapping[str, Attribute]) -> None:
+    """Let what a spawn sets, and reads, stand for what the parent passes on."""
+    listed = arguments["inherit"]
+    names = listed.value if isinstance(listed, Literal) else None
+    for name, value in sets.items():
+        sets[name] = of_parent(name, value, names is None or name in names, own.get(name) or ATTRIBUTES[name])
+    arguments["life"] = of_parent("life", arguments["life"], True, ATTRIBUTES["life"])
 
 
 def _inside(path: str, place: str) -> bool:

@@ -9,13 +9,13 @@ from graphfx.graph.items import Item
 from graphfx.graph.literals import Literals
 from graphfx.graph.model import Entry, Graph
 from graphfx.graph.named import TAKEN
-from graphfx.graph.names import ATTRIBUTE_KEYS, ATTRIBUTE_TYPES, CLUSTER_KEYS, CLUSTER_WAYS, WORD
+from graphfx.graph.names import ATTRIBUTE_KEYS, ATTRIBUTE_TYPES, CLUSTER_KEYS, CLUSTER_WAYS, SCOPES, WORD
 from graphfx.graph.scope import READABLE, Scope
 from graphfx.graph.values import Literal, Value
 from graphfx.node import ATTRIBUTES, OTHER_NAMES, RESERVED, Attribute, Parameter
 
 FOREIGN = {other: name for other, name in OTHER_NAMES.items() if name in READABLE}
-RESERVED_WORDS = frozenset({*TAKEN, *FOREIGN, *RESERVED, "tail"})
+RESERVED_WORDS = frozenset({*TAKEN, *FOREIGN, *RESERVED, *SCOPES, "tail"})
 """Names that no graph may give to an attribute or a cluster of its own."""
 _DEFAULTS = {"float": 0.0, "color": (1.0, 1.0, 1.0), "direction": (0.0, 1.0, 0.0)}
 CLUSTER_COUNT = Parameter("count", "int", None, min=1, max=10_000_000)

@@ -2,38 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from itertools import islice
 from types import MappingProxyType
-from typing import Any
 
 from graphfx.errors import suggestion
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking, listed
+from graphfx.graph.dependence import in_order
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry
 from graphfx.graph.names import TAIL, WORD
 from graphfx.graph.scope import Scope
-from graphfx.graph.values import Literal, Name, Node, Random, Value, children
+from graphfx.graph.values import Value
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
 
 _COUNTED = ("hits", "lives", "generation")
-
-
-def names_read(tree: Any, seen: set[int] | None = None) -> Iterator[str]:
-    """Yield the names that a value reads where it stands, clusters and the scopes of draws among them."""
-    seen = set() if seen is None else seen
-    if id(tree) in seen:
-        return
-    seen.add(id(tree))
-    if isinstance(tree, Name):
-        yield "life" if tree.name == "normalized_age" else tree.name
-    elif isinstance(tree, Random | Node):
-        yield tree.per
-    if isinstance(tree, Node) and tree.node_type is not None:
-        yield from tree.node_type.reads
-    for part in children(tree):
-        yield from names_read(part, seen)
 
 
 def wanted_of(name: str, own: Mapping[str, Attribute] = MappingProxyType({})) -> Parameter:
@@ -62,6 +46,7 @@ class AttributeReader:
                 self.checking.mismatch(item, path, "\"set\" should be an object of attributes")
             elif entry.role in ("set", "fade"):
                 self.checking.complain(entry.location, entry.path, f'{entry.type_name} needs "set": {{attribute: value, ...}}')
+            in_order(self.checking, entry, {}, None)
             return
         parameters = entry.node_type.parameters if entry.node_type else {}
         sets: dict[str, Value] = {}
@@ -92,41 +77,4 @@ class AttributeReader:
                 value = self.reader.read(given, wanted_of(name, scope.own), scope, f"set.{name}")
                 if value is not None:
                     sets[name] = value
-        entry.sets = self._ordered(entry, sets, parameters, item)
-
-    def _ordered(self, entry: Entry, sets: dict[str, Value], parameters: dict[str, Parameter], item: Item) -> dict[str, Value]:
-        """Return the values so that each comes after those that it reads; complain of circles.
-
-        Only an emitter may not read the attribute that it sets: with `set` and `fade` that is its value before, with
-        `spawn` what was inherited, and at birth there is none.
-        """
-        read = {name: set(names_read(value)) for name, value in sets.items()}
-        nearest = {name for name, (_, by) in entry.clusters.items() if not (isinstance(by, Literal) and by.value == "turn")}
-        before = {name: {"position" if other in nearest else other for other in names} for name, names in read.items()}
-        ordered: dict[str, Value] = {}
-        for start in sets:
-            trail = {} if start in ordered else {start: iter(sets)}
-            while trail:
-                name = next(reversed(trail))
-                other = next((other for other in trail[name] if other in before[name]), None)
-                if other is None:
-                    del trail[name]
-                    ordered[name] = sets[name]
-                elif other in trail and not (other == name and entry.role != "emit"):
-                    names = list(trail)
-                    circle = [*names[names.index(other):], other]
-                    self.checking.complain(item.key_location(other), f"{entry.path}.set.{other}",
-                                           _circular(circle, other in read[other]))
-                elif other not in ordered and other not in trail:
-                    trail[other] = iter(sets)
-        return ordered
-
-
-def _circular(circle: list[str], plain: bool) -> str:
-    """Return what is wrong with attributes that read one another."""
-    if len(circle) > 2:
-        return f"these attributes read one another in a circle: {' -> '.join(circle)}; give one of them a value of its own"
-    if plain:
-        return f"'{circle[0]}' reads itself, and at birth it has no value yet; let it read others"
-    return ("'position' is drawn by a cluster whose numbers are those of the nearest seed, and so follow from it; "
-            'number them by "turn", or let it read others')
+        entry.sets = in_order(self.checking, entry, sets, item)

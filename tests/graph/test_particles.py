@@ -125,7 +125,7 @@ def test_a_spawn_takes_from_parents_and_makes_a_stream(library: Library) -> None
     own = node({"type": "spawn", "from": "sky", "when": "hit", "values": {"way": {"expr": "hit.normal * parent.mass"}},
                 "set": {"velocity": {"expr": "way"}}}, library)
     assert [part.name for part in parts(own.sets["velocity"]) if isinstance(part, Name)] == ["hit.normal", "parent.mass"]
-    assert [part.name for part in parts(it.sets["radius"]) if isinstance(part, Name)] == ["radius", "parent.radius", "parent.age"]
+    assert [part.name for part in parts(it.sets["radius"]) if isinstance(part, Name)] == ["parent.radius", "parent.age"]
 
 
 def test_a_spawn_into_its_own_emitter_is_no_circle(library: Library) -> None:
@@ -192,7 +192,7 @@ def test_own_attributes_are_read_and_set_like_any(library: Library) -> None:
         "float", 300.0, "K", "Temperature.", (0.0, 1.0, 0.0))
     assert list(found.nodes["hot"].sets) == ["heat", "radius", "way"]
     names = [part.name for part in parts(found.nodes["it"].sets["heat"]) if isinstance(part, Name)]
-    assert names == ["parent.heat", "heat", "way"]
+    assert names == ["parent.heat", "parent.heat", "way"]
 
 
 GROUP = {"graphfx": 1, "inputs": {"p": {}}, "outputs": {"p": "v"}, "attributes": {"heat": {"type": "float", "default": 1}},
@@ -279,3 +279,17 @@ def test_a_group_that_needs_a_mesh_says_so(library: Library, tmp_path: Path) -> 
         nodes = {**SKY, "v": {"type": "g", "from": "sky", **given}}
         told = check(document_of({"graphfx": 1, "use": {"g": "g.json"}, "nodes": nodes}, folder=tmp_path), library)
         assert [problem.message for problem in told] == [message]
+
+
+@pytest.mark.parametrize(("inherit", "reads"), [
+    (None, ["parent.mass", "parent.mass"]), (["mass"], ["parent.mass", "parent.mass"]), ([], ["parent.mass"])])
+def test_a_spawn_that_reads_what_it_sets_reads_what_was_inherited(inherit: Any, reads: list[str], library: Library) -> None:
+    """The name stands for the parent's, wherever it stands in the value, or for the default where it is not passed on."""
+    sets = {"mass": {"rand": [{"expr": "mass + parent.mass"}, {"ramp": [[0, 1], [1, 2]], "over": "time"}]},
+            "radius": {"expr": "mass"}}
+    found = node({"type": "spawn", "from": "sky", "rate": 1, "set": sets, "life": {"expr": "life / 2"},
+                  **({"inherit": inherit} if inherit is not None else {})}, library)
+    assert [part.name for part in parts(found.sets["mass"]) if isinstance(part, Name) and part.name != "time"] == reads
+    assert [part.name for part in parts(found.sets["radius"]) if isinstance(part, Name)] == ["mass"]
+    assert [part.name for part in parts(found.arguments["life"]) if isinstance(part, Name)] == ["parent.life"]
+    assert list(found.sets) == ["mass", "radius"]
