@@ -130,6 +130,15 @@ def sims_scale(velocity: Any, damping: Any, dt: Any) -> Any:
     return velocity * maximum(1.0 - damping * dt, 0.0)
 
 
+@MOTION.function("vec3 vec3 vec3 float", "vec3")
+def sims_limited(velocity: Any, rate: Any, end: Any, dt: Any) -> Any:
+    """V' = V + rate dt along V, but not beyond `end`: V max(1 - d dt, min(1, threshold / |V|)) for damping. [Sims 1990, 3.4.1]"""
+    square = dot(velocity, velocity)
+    moved, last = square + dot(rate, velocity) * dt, dot(end, velocity)
+    limited = where(moved < square, maximum(last, moved), minimum(last, moved))
+    return velocity * where(square > 0.0, limited / square, 1.0)
+
+
 @MOTION.function("vec3 vec3 float float", "vec3")
 def sims_pull(velocity: Any, position: Any, stiffness: Any, dt: Any) -> Any:
     """V' = V - k P dt."""

@@ -152,20 +152,20 @@ def _write_spring(moment: Moment, state: State, total: Coefficients, dt: Operand
     An applied velocity u moves the place at which a spring pulls: with W = V + u in place of V, P' = W and
     W' = (g + d u - w x u) - d W + w x W - k P.
     """
-    builder, velocity = moment.builder, state.velocity
-    assert isinstance(velocity, Column)
+    builder, velocity, stiffness = moment.builder, state.velocity, total.stiffness
+    assert isinstance(velocity, Column) and stiffness is not None
     constant, damping, turning = total.constant or ZERO, total.damping or NOUGHT, total.turning
     if total.applied is not None:
         constant = _folded(moment, spring.constant_carried, constant, damping, turning or ZERO, total.applied, name="constant")
         builder.call(basic.sum_of_vectors, velocity, total.applied, into=velocity)
     both: Any = (state.position, velocity)
     if turning is None:
-        factors = builder.call(spring.spring_factors, damping, total.stiffness, dt, name="factor")
-        builder.call(spring.damped_spring, *both, constant, total.stiffness, dt, *factors, into=both)
+        factors = builder.call(spring.spring_factors, damping, stiffness, dt, name="factor")
+        builder.call(spring.damped_spring, *both, constant, stiffness, dt, *factors, into=both)
     else:
-        along = builder.call(spring.spring_factors, damping, total.stiffness, dt, name="factor")
-        across = builder.call(spring.turned_factors, damping, turning, total.stiffness, dt, name="factor")
-        builder.call(spring.spiral_spring, *both, constant, turning, total.stiffness, dt, *along, *across, into=both)
+        along = builder.call(spring.spring_factors, damping, stiffness, dt, name="factor")
+        across = builder.call(spring.turned_factors, damping, turning, stiffness, dt, name="factor")
+        builder.call(spring.spiral_spring, *both, constant, turning, stiffness, dt, *along, *across, into=both)
     if total.applied is not None:
         builder.call(basic.difference_of_vectors, velocity, total.applied, into=velocity)
 

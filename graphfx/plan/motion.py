@@ -15,9 +15,12 @@ from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic
 from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_step
 from graphfx.plan.moment import Moment, State
-from graphfx.plan.movers import INNER_ROLES, Mover, mover_of
+from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
-from graphfx.program import Builder, Column, Operand
+from graphfx.program import Builder, Column, Operand, Uniform
+
+FOR_EVER = Uniform("1e9", "float", 1e9)
+"""A time after which a flow has led where it leads [s]."""
 
 __all__ = ["Motion", "Mover", "mover_of"]
 
@@ -159,6 +162,20 @@ class Motion:
             rate = builder.call(mover.function, *operands, name="velocity half way")
         builder.call(basic.advance, changed, rate, dt, into=changed)
 
+    def _apply_paper(self, mover: Mover, moment: Moment, state: State) -> None:
+        """Write V' = V + rate dt for a flow that has a rate, but not beyond where it leads; else what is done elsewhere."""
+        linear = linear_form(mover)
+        if linear is None:
+            self._apply(mover, moment, state, moment.dt)
+            return
+        moment.builder.note = mover.node.path
+        builder, velocity = self.under_conditions(mover, moment), state.velocity
+        assert isinstance(velocity, Column)
+        rate = builder.call(linear.function, *self.arguments(linear, moment, state), name="rate")
+        end = {name: Column(f"final {name}", "vec3") for name in mover.node.node_type.writes}
+        builder.call(mover.function, *self.arguments(mover, moment, state, {"dt": FOR_EVER}), into=tuple(end.values()))
+        builder.call(basic.sims_limited, velocity, rate, end["velocity"], moment.dt, into=velocity)
+
     def _sims(self, moment: Moment, state: State) -> None:
         """Write a step of the paper's scheme: operations in stack order, then move."""
         builder = moment.builder
@@ -167,7 +184,7 @@ class Motion:
             if mover.idle:
                 continue
             if mover.role in INNER_ROLES:
-                self._apply(mover, moment, state, moment.dt)
+                self._apply_paper(mover, moment, state)
             elif mover.role in ("linear", "noise"):
                 write_paper_step(moment, state, self.linear.terms(mover, moment, state))
         builder.note = "move"

@@ -53,6 +53,13 @@ class Mover:
         return not any(map(depends_on_time, self.node.arguments.values()))
 
 
+def linear_form(mover: Mover) -> Mover | None:
+    """Return a flow as the rate of change that it has in its linear form, if it has one."""
+    if mover.role != "flow" or mover.node.node_type.linear is None:
+        return None
+    return Mover(mover.node, *_rate_function(mover.node.node_type), "linear")
+
+
 def mover_of(node: FlatNode, idle: bool = False) -> Mover:
     """Return an operator as it will run.
 

@@ -167,3 +167,34 @@ def test_the_paper_scheme_takes_the_velocity_alone():
     """In `sims` a drag changes the velocity, and the move after it the position: (V + V') / 2 h."""
     position, velocity = path([FLOWS["drag"]], (0, 0, 0), V, frames=1, method="sims")
     np.testing.assert_allclose(position[1], (velocity[0] + velocity[1]) / 2 * H, rtol=1e-13)
+
+
+@pytest.mark.parametrize("damping, threshold", [(2, 5), (30, 5), (2, 20), (30, 0.5)])
+def test_the_paper_damps_to_the_threshold(damping, threshold):
+    """In `sims` V' = V max(1 - d dt, min(1, threshold / |V|)), in every step."""
+    op = {"type": "damp", "damping": damping, "threshold": threshold}
+    _, velocity = path([op], (0, 0, 0), V, method="sims")
+    wanted = V
+    for _ in range(24):
+        wanted = wanted * max(1 - damping * H, min(1, threshold / np.linalg.norm(wanted)))
+    np.testing.assert_allclose(velocity[-1], wanted, rtol=1e-12)
+
+
+def test_the_paper_undamps_to_the_threshold():
+    """In `sims` V' = V min(1 + r dt, max(1, threshold / |V|)), in every step."""
+    _, velocity = path([{"type": "undamp", "rate": 2, "threshold": 40}], (0, 0, 0), V, method="sims")
+    wanted = V
+    for _ in range(24):
+        wanted = wanted * min(1 + 2 * H, max(1, 40 / np.linalg.norm(wanted)))
+    np.testing.assert_allclose(velocity[-1], wanted, rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", FLOWS)
+def test_those_that_it_does_not_act_on_fly_freely(name):
+    """Where `only` or `during` keeps a flow from a particle, its velocity carries it as if there were none."""
+    for more in ({"only": {"expr": "position.x > 100"}}, {"during": [0, 0.04]}):
+        position, velocity = path([FLOWS[name] | more], (0, 0, 0), V, frames=2)
+        first = 1 if "during" in more else 0
+        assert (velocity[2] == velocity[first]).all()
+        np.testing.assert_allclose(position[2] - position[1], velocity[first] * H, rtol=1e-13)
+        assert ("during" in more) == bool((velocity[1] != V).any())
