@@ -177,7 +177,7 @@ def _read_parents(arguments: dict[str, Value], sets: dict[str, Value], own: Mapp
     listed = arguments["inherit"]
     names = listed.value if isinstance(listed, Literal) else None
     for name, value in sets.items():
-        sets[name] = of_parent(name, value, names is None or name in names, own.get(name) or ATTRIBUTES[name])
+        sets[name] = of_parent(name, value, names is None or name in (*names, "position"), own.get(name) or ATTRIBUTES[name])
     arguments["life"] = of_parent("life", arguments["life"], True, ATTRIBUTES["life"])
 
 

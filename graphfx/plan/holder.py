@@ -112,13 +112,13 @@ class Holder:
         return Literal(attribute.type, value=attribute.default)
 
     def _inherited(self, maker: FlatNode, attribute: Attribute, parents: list[Holder]) -> Value:
-        """Return what a spawn copies from the parent; one more of `generation`; hits and lives begin anew."""
+        """Return what a spawn copies from the parent: the place always; one more of `generation`; hits and lives begin anew."""
         name = attribute.name
         if name in ("hits", "lives"):
             return Literal("float", value=0.0)
         inherit = maker.arguments["inherit"]
-        listed = inherit.value if isinstance(inherit, Literal) else ()
-        if listed and name not in (*listed, "generation"):
+        listed = inherit.value if isinstance(inherit, Literal) else None
+        if listed is not None and name not in (*listed, "generation", "position"):
             return Literal(attribute.type, value=attribute.default)
         tree: Any = Name(f"parent.{name}")
         if len(parents) == 1 and not parents[0].varies(name) and not _draws(parents[0].value(name)):

@@ -3,9 +3,9 @@
     births = count              at each birth, hit or death of a parent, as `when` says
     births = rate * dt          along the path of each parent, where `rate` is given instead
 
-What is made starts at the instant and the place of its cause, as a copy of its parent with a random velocity in a
-ball of radius `spread` added; then `set` is applied, where `parent.x` is the parent's and `hit.point`, `hit.normal`
-and `hit.speed` tell of the contact. It makes a stream of its own, or with `into` adds to an emitter's particles.
+What is made starts at the instant and the place of its cause, as a copy of its parent (of the attributes that `inherit`
+lists); `set` is applied, where `parent.x` is the parent's and `hit.point`, `hit.normal` and `hit.speed` tell of the contact,
+and a random velocity in a ball of radius `spread` added. It makes a stream of its own, or with `into` joins an emitter's.
 """
 
 from graphfx.node import language, param
@@ -18,7 +18,7 @@ def spawn(
     probability: float = param(1.0, min=0, max=1, doc="Share of the events that make any."),
     spread: float = param(0.0, unit="m/s", min=0, doc="Speed of the random velocity that is added, at most."),
     life: float = param(None, unit="s", min=0, doc="Age at which what is made dies; without it, the parent's."),
-    inherit: list = param(None, type="list", doc="Names of the attributes copied from the parent; without it, all."),
+    inherit: list = param(None, type="list", doc="Attributes copied from the parent, besides its position; without it, all."),
     into: str = param(None, type="node", choices=("emit",), doc="An emitter whose particles they join."),
     generations: int = param(8, min=1, doc="With into: so many spawns away from the emitter at most."),
 ) -> None:
