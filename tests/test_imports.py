@@ -33,7 +33,7 @@ ENGINE = {
 AROUND = {
     "cook": set(ENGINE),
     "authoring": {"errors", "node", "graph", "output", "cook"},
-    "contract": {"math", "node", "geometry", "program", "graph", "plan", "cook", "authoring"},
+    "contract": {"errors", "math", "node", "geometry", "program", "graph", "plan", "cook", "authoring"},
     "cli": {*ENGINE, "cook", "authoring", "graphfx"},
 }
 ALLOWED: dict[str, set[str]] = {**ENGINE, **AROUND}

@@ -22,6 +22,7 @@ class Pattern:
     given: str
     expected: str
     case: str
+    geometry: str = ""
 
 
 PATTERNS = {
@@ -76,9 +77,13 @@ PATTERNS = {
          'distance: float = param(1.0, unit="m", min=0, doc="How far particles may be.")'),
         "bool", "whether the particle is near", ("return length(position - center) < distance",),
         "position=Vec3(0.0, 2.0, 0.0), center=Vec3(0.0, 0.0, 0.0), distance=3.0", "True", "At 2 m a particle is within 3 m."),
+    "geometry": Pattern(
+        "a square of `size`, in the plane of x and z", "", "@geometry",
+        ('size: float = param(1.0, unit="m", min=0, doc="Length of its sides.")',),
+        "Mesh", "the square", ("return grid(size, size, 1, 1)",), "size=2.0", "2", "A square is two triangles.", "Mesh, grid"),
 }
 """By role. Each keeps the contract as it stands, so that a change that breaks it shows."""
-DEFAULT_ROLES = {"operators": "flow", "values": "value", "selectors": "selector"}
+DEFAULT_ROLES = {"operators": "flow", "values": "value", "selectors": "selector", "geometry": "geometry"}
 
 
 def roles_of(kind: str) -> list[str]:
@@ -86,14 +91,15 @@ def roles_of(kind: str) -> list[str]:
     usual = DEFAULT_ROLES.get(kind)
     if kind != "operators":
         return [usual] if usual else []
-    return [role for role in PATTERNS if role not in ("value", "selector")]
+    return [role for role in PATTERNS if role not in DEFAULT_ROLES.values() or role == usual]
 
 
 def node_text(name: str, kind: str, role: str) -> str:
     """Return the file of a new node."""
     pattern = PATTERNS[role]
     word = kind.removesuffix("s")
-    imports = [*([f"from graphfx.math import {pattern.math}"] if pattern.math else []),
+    imports = [*([f"from graphfx.geometry import {pattern.geometry}"] if pattern.geometry else []),
+               *([f"from graphfx.math import {pattern.math}"] if pattern.math else []),
                f"from graphfx.node import {', '.join(sorted(('param', word)))}"]
     arguments = "".join(f"    {argument},\n" for argument in pattern.arguments)
     body = "".join(f"    {line}\n" for line in pattern.body)
@@ -108,7 +114,8 @@ def test_text(name: str, role: str) -> str:
     pattern = PATTERNS[role]
     vectors = "Vec3" in pattern.given
     named = "distance, normal" if role == "surface" else "result"
-    found = "(distance, tuple(normal))" if role == "surface" else "tuple(result)" if pattern.result == "Vec3" else "result"
+    found = {"surface": "(distance, tuple(normal))", "geometry": "len(result.triangles)"}.get(role, "result")
+    found = "tuple(result)" if pattern.result == "Vec3" else found
     return f'''"""The node `{name}`: it keeps the contract of every node, and gives what was worked out by hand."""
 
 from pathlib import Path

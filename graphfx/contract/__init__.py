@@ -34,4 +34,6 @@ def subject(name: str, library: Iterable[str | Path] | str | Path = ()) -> Subje
 def truths_of(subject: Subject) -> list[Truth]:
     """Return all that must be true of a node: functions, whose names and docs say what."""
     claimed = [truth for truth in OF_ROLES if claims.applies(subject, truth)]
+    if subject.is_shape:
+        claimed = [*claimed, truths.makes_sound_meshes]
     return [*ALL, *(OF_FUNCTIONS if subject.is_function else ()), *claimed]

@@ -27,6 +27,12 @@ class Subject:
         return not self.node_type.language and self.node_type.kind != "geometry" and all(kind in _ON_LANES for kind in kinds)
 
     @property
+    def is_shape(self) -> bool:
+        """Whether it makes a mesh from numbers and texts alone."""
+        required = [parameter.type for parameter in self.node_type.parameters.values() if parameter.required]
+        return self.node_type.kind == "geometry" and "path" not in required
+
+    @property
     def is_closed(self) -> bool:
         """Whether its function is handed neither random numbers nor a particle's id."""
         kinds = map(self.node_type.argument_type, self.node_type.arguments)

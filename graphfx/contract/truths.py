@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 
+from graphfx.authoring.sample import example
 from graphfx.contract.both_ways import finite, same_bits
 from graphfx.contract.inputs import shown
 from graphfx.contract.subject import Subject
+from graphfx.errors import GraphfxError
+from graphfx.geometry.mesh import checked
 from graphfx.node import NUMERIC_TYPES, Parameter
 
 Truth = Callable[[Subject], None]
@@ -70,6 +74,28 @@ def stays_finite(subject: Subject) -> None:
         wrong = np.flatnonzero(~finite(subject.on_machine(precision)))
         assert not wrong.size, (f"{wrong.size} of {len(subject.rows)} rows are not finite in float{precision}, for instance "
                                 f"with {shown(subject.rows[wrong[0]])}; bound the parameter, or the result by where(...)")
+
+
+def makes_sound_meshes(subject: Subject) -> None:
+    """A geometry's mesh has points, all finite, and no corner that is not there, at the ends of its parameters too."""
+    parameters = [subject.node_type.parameters[name] for name in subject.node_type.arguments]
+    usual = {parameter.name: example(parameter) if parameter.required else parameter.default for parameter in parameters}
+    cases = [usual, *({**usual, parameter.name: end} for parameter in parameters for end in _ends(parameter))]
+    for given in cases:
+        try:
+            checked(subject.node_type.function(**given), "the mesh")
+        except GraphfxError as error:
+            raise AssertionError(f"{error} with {shown(given)}") from error
+
+
+def _ends(parameter: Parameter) -> list[Any]:
+    """Return the least value of a numeric parameter, and one that is larger than usual."""
+    if parameter.type not in ("float", "int", "vec3") or parameter.required:
+        return [False, True] if parameter.type == "bool" else []
+    least = [] if parameter.min is None else [np.full(np.shape(parameter.default), parameter.min)]
+    ends = [*least, 2 * np.asarray(parameter.default) + 1]
+    plain = [end.tolist() for end in ends if parameter.max is None or np.all(end <= parameter.max)]
+    return [tuple(end) if isinstance(end, list) else int(end) if parameter.type == "int" else end for end in plain]
 
 
 def does_not_depend_on_order(subject: Subject) -> None:

@@ -28,7 +28,7 @@ def command() -> None:
 
 @command.command()
 @click.argument("name")
-@click.option("--kind", default="operators", show_default=True, help="operators, selectors or values.")
+@click.option("--kind", default="operators", show_default=True, help="operators, selectors, values or geometry.")
 @click.option("--role", default=None, help="How the engine treats it: flow, linear, acceleration, surface, ...")
 @click.option("--in", "folder", default=".", metavar="FOLDER", help="The library folder; nodes/ and tests/ are made in it.")
 @debug
