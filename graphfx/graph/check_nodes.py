@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.check_streams import references
@@ -17,6 +19,7 @@ from graphfx.graph.names import ID, REFERENCE_TYPES, SCOPES, keys_of
 from graphfx.graph.own import check_inherited, read_clusters
 from graphfx.graph.scope import Scope
 from graphfx.graph.sets import AttributeReader
+from graphfx.graph.values import Node, Random, children
 from graphfx.node import ATTRIBUTES, COMMON_KEYS, OTHER_NAMES, Parameter
 
 _NODE_KINDS = ("emitters", "selectors", "operators", "renders", "geometry")
@@ -197,16 +200,18 @@ class NodeReader:
         for index, given in enumerate(ops.value):
             at = f"{path}[{index}]"
             name = self._op_name(given, at)
-            op = self.entry(name, given, f"{stack.place}/{name}", at, stack.name)
-            if name in seen and name != "?":
-                first = seen[name]
-                stated = "id" in given.value
+            first = seen.get(name) if name != "?" else None
+            stated = given.is_object and "id" in given.value
+            own = name if first is None or stated else _next_name(name, seen)
+            op = self.entry(own, given, f"{stack.place}/{own}", at, stack.name)
+            if first is not None and (stated or _draws(op)):
                 self.checking.complain(
                     given.value["id"].location if stated else op.type_location, f"{at}.{'id' if stated else 'type'}",
                     f"a second operator of this stack is called '{name}', the first at {first.line}:{first.column}; "
-                    + ("choose another id" if stated else f'give this one an id: {{"type": "{name}", "id": "{name}_2", ...}}'))
+                    + ("choose another id" if stated
+                       else f'as it draws random numbers, give it an id: {{"type": "{name}", "id": "{own}", ...}}'))
                 continue
-            seen[name] = op.type_location
+            seen[own] = op.type_location
             if op.role:
                 stack.ops.append(op)
 
@@ -227,6 +232,25 @@ class NodeReader:
 def of_the_born(entry: Entry, scope: Scope) -> Scope:
     """Return the scope of attributes that a node sets: what `spawn` makes is only being born, so its birth.x is none yet."""
     return replace(scope, qualifiers=scope.qualifiers - {"birth"}) if entry.role == "spawn" else scope
+
+
+def _next_name(name: str, taken: Mapping[str, Location]) -> str:
+    """Return a name that is not taken for another operator of a type."""
+    number = 2
+    while f"{name}_{number}" in taken:
+        number += 1
+    return f"{name}_{number}"
+
+
+def _draws(op: Entry) -> bool:
+    """Return whether an operator draws random numbers, which its name keys; a group may."""
+    waiting: list[Any] = [*op.arguments.values(), *op.sets.values(), op.only]
+    while waiting:
+        tree = waiting.pop()
+        if isinstance(tree, Random) or (isinstance(tree, Node) and tree.node_type and "draw" in tree.node_type.reserved):
+            return True
+        waiting += children(tree)
+    return op.group is not None or bool(op.node_type and "draw" in op.node_type.reserved)
 
 
 def why_uniform(entry: Entry, parameter: Parameter) -> str:

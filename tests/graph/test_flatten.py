@@ -55,6 +55,12 @@ def test_an_empty_stack_passes_its_streams_on(library: Library) -> None:
     assert flat(graph(nodes), library).nodes["turn"].sources == ("a", "b")
 
 
+def test_operators_of_a_type_are_numbered(library: Library) -> None:
+    """A second operator of a type that draws nothing needs no id of its own."""
+    found = flat(graph(stack({"type": "vortex"}, {"type": "vortex"}, {"type": "vortex"})), library)
+    assert [path for path in found.nodes if path != "sky"] == ["fall/vortex", "fall/vortex_2", "fall/vortex_3"]
+
+
 def test_nodes_may_stand_in_any_order(library: Library) -> None:
     """A stream may be taken from a node, or a group, that the document names later."""
     nodes = {"last": {"type": "spiral", "from": "split.right"}, "split": {"type": "halves", "from": "turn"},
