@@ -4,10 +4,11 @@
 
 R is the distance from the axis (in units of 1 m), where the paper takes it from the center, and the turn is a
 rate times dt, where the paper's is an angle per step. Turning keeps R and the height along the axis, so the flow
-is exact for any dt. On the axis itself (R = 0) nothing moves. [Sims 1990, 3.3.1]
+is exact for any dt. On the axis itself (R = 0) nothing moves, and close by R^-tightness counts as
+at most 1e18. [Sims 1990, 3.3.1]
 """
 
-from graphfx.math import Vec3, cross, dot, length, power, sincos, where
+from graphfx.math import Vec3, cross, dot, length, minimum, power, sincos, where
 from graphfx.node import INFINITY, operator, param
 
 
@@ -29,7 +30,7 @@ def vortex(
     R = length(radial)
     near = R / range
     fade = where(near < 1.0, (1.0 - near * near) * (1.0 - near * near), 0.0)
-    rate = dt * fade * power(where(R > 0.0, R, 1.0), -tightness)
+    rate = dt * fade * minimum(power(where(R > 0.0, R, 1.0), -tightness), 1e18)
     sine, cosine = sincos(magnitude * rate)
     moved = center + axis * (height + lift * rate) + radial * cosine + cross(axis, radial) * sine
     return where(R > 0.0, moved, position)
