@@ -6,6 +6,8 @@
 What is made starts at the instant and the place of its cause, as a copy of its parent (of the attributes that `inherit`
 lists); `set` is applied, where `parent.x` is the parent's and `hit.point`, `hit.normal` and `hit.speed` tell of the contact,
 and a random velocity in a ball of radius `spread` added. It makes a stream of its own, or with `into` joins an emitter's.
+
+Also called: sub-emitter, trails, event.
 """
 
 from graphfx.node import language, param

@@ -7,6 +7,8 @@ falloff 0 the pull is the same at any distance. Softening rounds off the pull wi
 particles that pass near the point are not flung; without it a step near the point is too long. The sum in brackets is
 bounded so that no pull is infinite: (r^2 + softening^2)^(...) counts as at least 1e-18. [Sims 1990, 3.4; softening:
 Plummer 1911]
+
+Also called: attractor, repel, point force.
 """
 
 from graphfx.math import Vec3, dot, minimum, power, where

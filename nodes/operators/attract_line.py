@@ -4,6 +4,8 @@
 
 Along the line nothing acts. Softening rounds off the pull within about its own length. No pull is infinite:
 (|r|^2 + softening^2)^(...) counts as at least 1e-18. [Sims 1990, 3.4]
+
+Also called: axis force, line attractor.
 """
 
 from graphfx.math import Vec3, dot, minimum, power, where

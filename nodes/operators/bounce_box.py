@@ -4,6 +4,8 @@
     distance = |max(q, 0)| outside, the greatest of q inside
 
 The normal is that of the nearest point; both are the other way round with `inside`.
+
+Also called: collision, collider, container.
 """
 
 from graphfx.math import Vec3, absolute, copysign, length, maximum, where

@@ -3,6 +3,8 @@
     met where the way of a step goes through the plane no farther than radius from the center
 
 A particle is kept a hair's breadth (64 units in the last place) off the sheet, so that it never ends up behind it.
+
+Also called: collision, collider.
 """
 
 from graphfx.geometry import meets_plane, skin, skin_near

@@ -4,6 +4,8 @@ The way of each step is searched in a tree of boxes for the first face that it m
 along the true path. A particle is kept a hair's breadth (64 units in the last place of the mesh's greatest coordinate)
 off the mesh, so that it never ends up behind it. One that starts on the mesh counts as in front of it. It goes particle
 by particle.
+
+Also called: collision, collide with geometry.
 """
 
 from graphfx.geometry import Mesh, first_meeting

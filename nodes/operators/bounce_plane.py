@@ -4,6 +4,8 @@
 
 At the instant of contact V' = (1 - friction) Vt - resilience Vn, where Vn and Vt are the parts of the velocity
 along the normal and along the plane. [Sims 1990, 3.4.3]
+
+Also called: collision, collider, ground, floor.
 """
 
 from graphfx.math import Vec3, dot

@@ -4,6 +4,8 @@
 
 both the other way round with `inside`. A particle at the very center has no nearest point; its normal is zero and
 it stays. [Sims 1990, 3.4.3]
+
+Also called: collision, collider.
 """
 
 from graphfx.math import Vec3, length, where

@@ -5,6 +5,8 @@
 An applied velocity: the particle's own velocity does not change. The mean of u . u is 1. One field has one size; put
 several, each half as large and somewhat slower, for finer detail. Second order in the step: the field is taken half way
 along. [Bridson, Hourihan and Nordenstam 2007; `graphfx.math.noise` has the formula]
+
+Also called: advect by noise, flow field.
 """
 
 from graphfx.math import Vec3

@@ -5,6 +5,8 @@
 and the position moves by the integral of V: the particle slows down until t = log(|V| / threshold) / damping and goes on
 evenly from there. The paper's V' = V max(1 - d dt, ...) is its first-order form, which overshoots at d dt > 1; this one is
 exact for any step. A negative damping speeds up, without a limit: `undamp` has one. [Sims 1990, 3.4.1]
+
+Also called: air friction, slow down.
 """
 
 from graphfx.math import Vec3, exp, length, log, maximum, minimum, phi1, where

@@ -6,6 +6,8 @@
 
 The speed falls as 1 / t, so a particle never quite stops. With gravity it falls at sqrt(g / strength) in the end. Exact for
 any step where it acts alone. [Newton's resistance; the paper calls for it in 3.4.1]
+
+Also called: air friction.
 """
 
 from graphfx.math import Vec3, length, log, minimum, where

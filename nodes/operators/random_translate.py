@@ -4,6 +4,8 @@
 
 It holds for 1/24 s whatever the frames and steps are, so the motion is the same at any of them, and exact. After n such
 times a particle is off by about speed sqrt(0.6 n) / 24. [Sims 1990, 3.3]
+
+Also called: jitter, wander, random walk.
 """
 
 from graphfx.math import Vec3, on_unit_sphere, power

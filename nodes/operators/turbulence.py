@@ -4,6 +4,8 @@
 
 The field of `curl_noise` as an acceleration; the mean of u . u is 1. With `damp` or `drag` it is a restless wind.
 [Bridson, Hourihan and Nordenstam 2007; `graphfx.math.noise` has the formula]
+
+Also called: noise force.
 """
 
 from graphfx.math import Vec3, curl_noise

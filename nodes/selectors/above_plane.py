@@ -2,6 +2,7 @@
 
     (P - point) . normal > 0
 
+Also called: mask, region, half-space.
 """
 
 from graphfx.math import Vec3, dot

@@ -2,6 +2,7 @@
 
     min <= P <= max, in each coordinate
 
+Also called: mask, region, bounding box.
 """
 
 from graphfx.math import Vec3

@@ -1,6 +1,8 @@
 """Inside a closed mesh: a ray from the particle meets its faces an odd number of times.
 
 A mesh that is not closed has no inside; what this says of one means nothing. It goes particle by particle.
+
+Also called: mask, region, volume.
 """
 
 from graphfx.geometry import Mesh, is_inside

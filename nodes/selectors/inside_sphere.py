@@ -2,6 +2,7 @@
 
     |P - center| <= radius
 
+Also called: mask, region.
 """
 
 from graphfx.math import Vec3, length

@@ -4,6 +4,8 @@
 
 The id of a particle is the ordinal of its birth, so an emitter whose `count` is the number of vertices puts one on
 each. [Sims 1990, 3.1]
+
+Also called: one per vertex.
 """
 
 from graphfx.geometry import Mesh, vertex, vertex_in_turn, vertex_normal

@@ -4,6 +4,8 @@
 
 With the point come the normal of the face and its up-most tangent, the tangent that points most nearly up; on a
 horizontal face that is +x. [Sims 1990, 3.1 and 5.3]
+
+Also called: scatter on a surface.
 """
 
 from graphfx.geometry import Mesh, choose_face, face_normal, face_point, upmost_tangent
