@@ -89,8 +89,11 @@ class Holder:
 
     @property
     def clusters(self) -> dict[str, Cluster]:
-        """Return the numbers that its particles are given."""
-        return self.maker.clusters
+        """Return the numbers that its particles are given; what a spawn makes has those that all its parents have."""
+        if not self.parents:
+            return self.maker.clusters
+        first, *others = [parent.clusters for parent in self.parents]
+        return {name: cluster for name, cluster in first.items() if all(name in other for other in others)}
 
     def value(self, name: str) -> Value:
         """Return what an attribute is at birth."""

@@ -197,6 +197,7 @@ def reads_of_spawn(holder: Holder, maker: FlatNode, parents: list[Holder], store
     of_children = [holder.value_from(maker, name, parents) for name in holder.birth_order(list(stored), maker)]
     for value in (*of_children, maker.arguments["spread"], maker.arguments["life"]):
         found |= {name[7:] for name in names_in(value) if name.startswith("parent.")}
+    found |= holder.clusters.keys() & set(stored).union(*(names_in(value) for value in of_children))
     if moment_of(maker) == "hit":
         found.add("hits")
     return {name.removeprefix("parent.") for name in found if not name.startswith("hit.")}

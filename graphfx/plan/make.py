@@ -234,7 +234,7 @@ class _Planner:
             reading.note(reads_of_spawn(home, maker, home.parents_of(maker), stored), spawn.path)
         reading.operators()
         found = find_attributes(reading, motion_blur, self.prune)
-        self.stored[holder.path] = [name for name in found.types if name in holder.table]
+        self.stored[holder.path] = [name for name in found.types if name in holder.table or name in holder.clusters]
         return found
 
 

@@ -46,3 +46,18 @@ def test_what_reads_itself_reads_the_parents() -> None:
     found = children(set={"radius": {"expr": "radius / 2"}, "mass": {"expr": "mass + 1"}})["color"]
     assert (found[:, 0] >= 1.5).all() and (found[:, 0] < 2).all() and (found[:, 1] == 6).all()
     np.testing.assert_allclose(found[:, 0], children()["color"][:, 0] / 2)
+
+
+@pytest.mark.parametrize("by", ["turn", "nearest"])
+def test_children_and_their_children_are_in_the_clusters_of_their_parents(by: str) -> None:
+    """The number is the parent's, in what is set at birth, in operators, and in what they make in turn."""
+    nodes = {"sky": {"type": "emit", "count": 30, "life": 0.25, "clusters": {"part": {"count": 4, "by": by}},
+                     "set": {"position": {"in_box": {}}, "mass": {"expr": "part"}}},
+             "one": {"type": "spawn", "from": "sky", "when": "death", "life": 0.1},
+             "two": {"type": "spawn", "from": "one", "when": "death", "life": 9, "set": {"radius": {"expr": "part"}}},
+             "mark": {"type": "set", "from": "two", "set": {"color": {"expr": "vec(radius, mass, part)"}}},
+             "view": {"type": "camera"}, "frames": {"type": "image", "from": "mark", "camera": "view", "shutter": 0}}
+    data = {"graphfx": 1, "time": {"frames": [0, 12], "precision": 64}, "nodes": nodes}
+    found = Effect(flatten(document_of(data), LIBRARY)).simulate(12)["two"]["color"]
+    assert set(found[:, 1]) == {0.0, 1.0, 2.0, 3.0}
+    np.testing.assert_array_equal(found[:, [0, 2]], found[:, [1, 1]])
