@@ -20,10 +20,10 @@ def caller() -> Location:
     return Location(frame.f_code.co_filename, frame.f_lineno)
 
 
-def fault(message: str, known: Iterable[str] = (), *, wrong: str = "", path: str = "",
-          notes: tuple[str, ...] = ()) -> GraphError:
+def fault(message: str, known: Iterable[str] = (), *, wrong: str = "", path: str = "", notes: tuple[str, ...] = (),
+          other_names: dict[str, str] | None = None) -> GraphError:
     """Return the error that names the author's line; a message about a `wrong` name suggests one that is known."""
-    near = suggestion(wrong, known) if wrong else ""
+    near = suggestion(wrong, known, other_names) if wrong else ""
     return GraphError(Problem(message + near, caller(), path, notes))
 
 
@@ -31,9 +31,9 @@ class UnknownName(GraphError, AttributeError):
     """A name that nothing has: an AttributeError too, as `hasattr` expects."""
 
 
-def missing(message: str, wrong: str, known: Iterable[str]) -> UnknownName:
+def missing(message: str, wrong: str, known: Iterable[str], other_names: dict[str, str] | None = None) -> UnknownName:
     """Return the error for a name that nothing has."""
-    return UnknownName(fault(message, known, wrong=wrong).problems)
+    return UnknownName(fault(message, known, wrong=wrong, other_names=other_names).problems)
 
 
 class Places:

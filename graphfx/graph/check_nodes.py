@@ -91,7 +91,7 @@ class NodeReader:
             self.checking.complain(given.location, f"{entry.path}.type", f"'{name}' is a value, not a node; "
                                    f'give it to a parameter or an attribute: {{"{name}": {{...}}}}')
         elif f"use.{name}" not in self.graph.broken:
-            near = suggestion(name, [*self.checking.types_of(*_NODE_KINDS), *self.graph.use])
+            near = suggestion(name, [*self.checking.types_of(*_NODE_KINDS), *self.graph.use], library.other_names)
             self.checking.complain(given.location, f"{entry.path}.type", f"there is no node type '{name}'." + near,
                                    "" if near else f'a group is named under "use": {{"{name}": "groups/{name}.json"}}')
         if entry.node_type is None and entry.group is None:

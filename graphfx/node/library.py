@@ -9,8 +9,10 @@ from __future__ import annotations
 import hashlib
 import importlib.util
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator, Mapping
+from functools import cached_property
 from pathlib import Path
 from types import ModuleType
 
@@ -68,6 +70,21 @@ class Library(Mapping[str, NodeType]):
     def kind_of(self, name: str) -> str:
         """Return the kind of a node type without executing its file."""
         return self._files[name][0]
+
+    @cached_property
+    def other_names(self) -> dict[str, str]:
+        """What other tools call our node types: the lines "Also called: ..." of their docs; an earlier place counts more."""
+        found: dict[str, tuple[int, str]] = {}
+        for name in sorted(self):
+            try:
+                doc = self[name].doc
+            except NodeError:
+                continue
+            said = re.search(r"^Also called: (.+?)\.?$", doc, re.MULTILINE)
+            for place, other in enumerate(said[1].split(", ") if said else ()):
+                key = other.strip().lower().replace(" ", "_")
+                found[key] = min(found.get(key, (place, name)), (place, name))
+        return {other: name for other, (_, name) in found.items()}
 
     def _load(self, kind: str, file: Path) -> NodeType:
         module = _execute(file, kind)

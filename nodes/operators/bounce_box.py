@@ -5,7 +5,7 @@
 
 The normal is that of the nearest point; both are the other way round with `inside`.
 
-Also called: collision, collider, container.
+Also called: collider, collision, container.
 """
 
 from graphfx.math import Vec3, absolute, copysign, length, maximum, where

@@ -4,7 +4,7 @@
 
 A particle is kept a hair's breadth (64 units in the last place) off the sheet, so that it never ends up behind it.
 
-Also called: collision, collider.
+Also called: collider, collision.
 """
 
 from graphfx.geometry import meets_plane, skin, skin_near

@@ -5,7 +5,7 @@ along the true path. A particle is kept a hair's breadth (64 units in the last p
 off the mesh, so that it never ends up behind it. One that starts on the mesh counts as in front of it. It goes particle
 by particle.
 
-Also called: collision, collide with geometry.
+Also called: collider, collision, collide with geometry.
 """
 
 from graphfx.geometry import Mesh, first_meeting

@@ -5,7 +5,7 @@
 both the other way round with `inside`. A particle at the very center has no nearest point; its normal is zero and
 it stays. [Sims 1990, 3.4.3]
 
-Also called: collision, collider.
+Also called: collider, collision.
 """
 
 from graphfx.math import Vec3, length, where

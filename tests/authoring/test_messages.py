@@ -31,6 +31,12 @@ def test_unknown_type() -> None:
     assert told(error) == f"{HERE}:{line() - 1}: there is no node type, value or group 'emitt'. Did you mean 'emit'?"
 
 
+def test_other_names() -> None:
+    """What another tool calls a node type is understood."""
+    with pytest.raises(GraphError, match=r"there is no node type, value or group 'attractor'\. Did you mean 'attract'\?"):
+        graphfx.Graph().attractor()
+
+
 def test_unknown_parameter() -> None:
     """A parameter that a node lacks is told with what it takes."""
     g = graphfx.Graph()

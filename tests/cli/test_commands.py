@@ -124,6 +124,15 @@ def test_names_come_before_texts() -> None:
     assert mentions("Fall", texts) == ["fall_down  Three.", "b          Two falls.", "a          One."]
 
 
+def test_other_names_are_known(invoke, folder: Path) -> None:
+    """A graph that uses another tool's name for a node type is told ours."""
+    (folder / "theirs.json").write_text('{"graphfx": 1, "nodes": {"a": {"type": "Axis_Force"}}}')
+    assert invoke("check", "theirs.json").err == (
+        "theirs.json:1:40: nodes.a.type: there is no node type 'Axis_Force'. Did you mean 'attract_line'?\n")
+    assert LIBRARY.other_names["collision"] == "bounce_plane"
+    assert set(LIBRARY.other_names).isdisjoint(LIBRARY)
+
+
 def test_nodes_as_data(invoke) -> None:
     """--json gives the same facts as data, of one type or of all."""
     one, every = json.loads(invoke("nodes", "vortex", "--json").out), json.loads(invoke("nodes", "--json").out)
