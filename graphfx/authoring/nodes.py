@@ -54,7 +54,8 @@ def maker_of(graph: Graph, name: str, source: Node | None = None) -> Callable[..
     elif name in draft.library:
         kind, node_type = draft.library.kind_of(name), draft.library[name]
     else:
-        raise missing(f"there is no node type, value or group '{name}'.", name, [*draft.library, *draft.groups], draft.library.other_names)
+        known = [*draft.library, *draft.groups]
+        raise missing(f"there is no node type, value or group '{name}'.", name, known, draft.library.other_names)
     grows = isinstance(source, Stack) and kind in ("operators", "group") and name != "stack"
 
     def make(id: str = "", /, **given: Any) -> Any:
