@@ -30,6 +30,23 @@ def vertex_count(mesh: Any) -> Any:
     return rows(mesh, VERTICES)
 
 
+def along_vertices(mesh: Any, progress: Any) -> tuple[Any, Any]:
+    """A smooth way through all vertices in turn: the point at a share of it, and the way on from there.
+
+        Catmull-Rom: (2 P1 + (P2 - P0) s + (2 P0 - 5 P1 + 4 P2 - P3) s^2 + (3 P1 - P0 - 3 P2 + P3) s^3) / 2
+
+    Vertices stand at equal shares, 0 the first and 1 the last, beyond which it stays. [Catmull and Rom 1974]
+    """
+    last = vertex_count(mesh) - 1.0
+    place = minimum(maximum(progress, 0.0), 1.0) * last
+    before = minimum(floor(place), maximum(last - 1.0, 0.0))
+    s = place - before
+    p0, p1 = vertex(mesh, maximum(before - 1.0, 0.0)), vertex(mesh, before)
+    p2, p3 = vertex(mesh, minimum(before + 1.0, last)), vertex(mesh, minimum(before + 2.0, last))
+    a, b, c = p2 - p0, p0 * 2.0 - p1 * 5.0 + p2 * 4.0 - p3, p1 * 3.0 - p0 - p2 * 3.0 + p3
+    return p1 + (a + (b + c * s) * s) * (s * 0.5), (a + (b * 2.0 + c * (s * 3.0)) * s) * (last * 0.5)
+
+
 def vertex_in_turn(mesh: Any, identity: Any) -> Any:
     """id mod number of vertices: the vertex that falls to a particle when all take them in turn."""
     return turn(identity, mesh, VERTICES)

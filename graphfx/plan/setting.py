@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphfx.graph.flat import FlatNode
-from graphfx.graph.values import Name
+from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic, events
 from graphfx.plan.values import ValueWriter, node_function
 from graphfx.program import Builder, Column, Operand, Uniform
@@ -78,6 +78,8 @@ class Setting:
         for name in node_type.arguments:
             if name in self.node.arguments:
                 operands.append(writer.argument(self.node.arguments[name]))
+            elif name in self.node.references:
+                operands.append(writer.operand(Literal("mesh", value=self.node.references[name])))
             else:
                 operands.append(writer.operand(Name(name)))
         function = node_function(node_type)
