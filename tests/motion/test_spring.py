@@ -151,6 +151,27 @@ def test_gravity_shifts_the_place_of_rest():
     np.testing.assert_allclose(position[-1], [0.5, -9.81 / 49, 0], rtol=0, atol=1e-13)
 
 
+def test_an_applied_velocity_shifts_the_swing():
+    """Under an applied velocity u a spring swings with V + u for V: x = x0 cos w t + (V + u) / w sin w t, V = x' - u."""
+    u, w, t = np.array([1.0, -2.0, 0.5]), 2 * np.pi, 0.625
+    ops = [SPRING, {"type": "translate", "rate": u.tolist()}]
+    position, velocity = path(ops, (1.5, 2, 0), (3, 0, 1), **REST)
+    arm, swing = np.array([1.0, 2, 0]), np.array([3.0, 0, 1]) + u
+    wanted = arm * np.cos(w * t) + swing / w * np.sin(w * t)
+    np.testing.assert_allclose(position[15] - [0.5, 0, 0], wanted, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(velocity[15], swing * np.cos(w * t) - arm * w * np.sin(w * t) - u, rtol=0, atol=1e-11)
+
+
+def test_damping_slows_the_own_velocity_alone():
+    """In the end the own velocity is -u and the spring is stretched by (d u - w x u) / k."""
+    ops = [SPRING | {"frequency": 5}, {"type": "damp", "damping": 4}, {"type": "translate", "rate": [1, 0, 0]}]
+    spiral = {"type": "spiral", "speed": 2}
+    for more, end in (([], [4 / 25, 0, 0]), ([spiral], [4 / 25, 0, 2 / 25])):
+        position, velocity = path(ops + more, (1, 0, 0), frames=480, rest_position=[0, 0, 0], spiral_axis=[0, 1, 0])
+        np.testing.assert_allclose(velocity[-1], [-1, 0, 0], rtol=0, atol=1e-12)
+        np.testing.assert_allclose(position[-1], end, rtol=0, atol=1e-13)
+
+
 @pytest.mark.parametrize("spiral", [0, 3.0])
 def test_all_linear_operators_in_one_step(spiral):
     """Spring, gravity, damping, translation and spiral: one step of 2 s is 2000 steps of 1 ms, to 1e-11."""
