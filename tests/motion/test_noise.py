@@ -114,6 +114,7 @@ def test_every_instance_has_its_own_noise():
 
 
 CASES = [(24, 0, 1), (24, 0, 4), (12, 0, 1), (30, 0, 1), (30, 0, 5), (1, 0, 1), (10, 0.17, 3), (23.976, 1.5, 2), (60, 0, 1)]
+CASES += [(3, 0, 4), (6, 0, 2), (2.4, 0, 6)]  # their steps begin at cells, but for rounding
 
 
 @pytest.mark.parametrize("fps, preroll, substeps", CASES)
