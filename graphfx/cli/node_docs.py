@@ -56,6 +56,7 @@ def facts(node_type: NodeType) -> dict[str, str]:
     """Return what a node type's declaration says besides its parameters, in the order of its docs."""
     own = [name for name in node_type.reserved if not node_type.language]
     return {
+        "signature": "" if node_type.language else signature(node_type),
         "reads": ", ".join(node_type.reads),
         "given_by_the_engine": ", ".join(own),
         "writes": ", ".join(node_type.writes),
@@ -64,6 +65,14 @@ def facts(node_type: NodeType) -> dict[str, str]:
         "left_out_when": node_type.neutral,
         "declared_in": from_here(node_type.location.file),
     }
+
+
+def signature(node_type: NodeType) -> str:
+    """Return a function's signature: what it reads, what the engine gives, its parameters with their units, and its results."""
+    parameters = node_type.parameters
+    arguments = [parameters[name].label if name in parameters else name for name in node_type.arguments]
+    results = ", ".join(node_type.writes or node_type.results or node_type.result)
+    return f"{node_type.name}({', '.join(arguments)}) -> {results}"
 
 
 def node_data(node_type: NodeType, library: Library) -> dict[str, Any]:

@@ -138,6 +138,8 @@ def test_nodes_as_data(invoke) -> None:
     one, every = json.loads(invoke("nodes", "vortex", "--json").out), json.loads(invoke("nodes", "--json").out)
     assert one["parameters"]["tightness"] | {"doc": ""} == {
         "type": "float", "default": 1.5, "required": False, "unit": "", "min": 0, "max": 8, "choices": [], "doc": ""}
+    assert one["signature"] == ("vortex(position, dt, center [m], axis, magnitude [rad/s], tightness, range [m], lift [m/s]) "
+                                "-> position")
     assert (one["kind"], one["role"], one["writes"], one["given_by_the_engine"]) == ("operators", "flow", "position", "dt")
     assert one in every
     assert [node["name"] for node in every] == sorted(LIBRARY)
