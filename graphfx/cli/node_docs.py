@@ -63,6 +63,7 @@ def facts(node_type: NodeType) -> dict[str, str]:
         "gives": ", ".join(node_type.result) if node_type.kind == "values" else "",
         "the_engine": treatment(node_type.role),
         "left_out_when": node_type.neutral,
+        "exact_when": node_type.exact_if,
         "declared_in": from_here(node_type.location.file),
     }
 

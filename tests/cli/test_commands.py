@@ -12,9 +12,11 @@ import pytest
 from graphfx.authoring.sample import sample
 from graphfx.cli.group_docs import describe_group, groups_of
 from graphfx.cli.node_docs import describe, mentions
+from graphfx.cli.value_docs import SUMMARIES
 from graphfx.graph.check import check
 from graphfx.graph.document import document_of, read_document
 from graphfx.graph.flatten import flatten
+from graphfx.graph.names import VALUE_KEYS
 from graphfx.node import Library, bundled_root
 from graphfx.node.roles import treatment
 from graphfx.plan.make import make_plan
@@ -153,6 +155,18 @@ def test_groups_are_listed_and_described(invoke) -> None:
     assert told.startswith("gust (group groups/gust.json)\n\nA gust of wind: ")
     assert re.search(r"^  start \[m\] +point +\[-10, 3, 0\] +Where the gust sets out\.$", told, re.MULTILINE)
     assert "\ntakes: particles\ngives: particles\n" in told
+
+
+@pytest.mark.parametrize("name", VALUE_KEYS)
+def test_values_of_the_language_are_described(invoke, name: str) -> None:
+    """The language's own values are listed and described too, each with a graph that runs."""
+    told = invoke("nodes", name).out
+    assert told.startswith(f"{name} (a value of the language)\n\n{SUMMARIES[name]}\n")
+    assert all(f"  {key} " in told for key in VALUE_KEYS[name])
+    document = read_document(told[told.index("{"):])
+    assert check(document, LIBRARY) == []
+    assert make_plan(flatten(document, LIBRARY)).images
+    assert f"  {name:5}  {SUMMARIES[name]}\n" in invoke("nodes").out
 
 
 @pytest.mark.parametrize("name", sorted(GROUPS))

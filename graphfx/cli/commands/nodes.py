@@ -25,6 +25,8 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     """
     from graphfx.cli.group_docs import describe_group, group_lines, group_texts, groups_of
     from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table, texts_of
+    from graphfx.cli.value_docs import describe_value, value_lines, value_texts
+    from graphfx.graph.names import VALUE_KEYS
     from graphfx.node import Library, library_roots
 
     nodes = Library(library_roots(library))
@@ -36,16 +38,20 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     if name is not None and name in groups and not as_json:
         click.echo(describe_group(groups[name], nodes))
         return
+    if name in VALUE_KEYS and not as_json:
+        click.echo(describe_value(str(name), nodes))
+        return
     if name is not None:
-        found = mentions(name, texts_of(types) | group_texts(groups))
-        hint = " These speak of it:" if found else " 'graphfx nodes' lists them"
-        near = suggestion(name, [*nodes, *groups])
-        raise UsageError(Problem(f"there is no node type '{name}'.{near}{hint}", notes=tuple(found)))
+        found = mentions(name, texts_of(types) | value_texts() | group_texts(groups))
+        near = suggestion(name, [*nodes, *VALUE_KEYS, *groups])
+        hint = " These speak of it:" if found else f"{near} 'graphfx nodes' lists them"
+        raise UsageError(Problem(f"there is no node type '{name}'.{hint}", notes=tuple(found)))
     if as_json:
         click.echo(json.dumps([node_data(types[each], nodes) for each in sorted(types)], indent=2))
     else:
-        lines = [f"  {line}" for line in group_lines(groups)]
-        click.echo("\n".join([table(types), "", "groups", *lines, "", "'graphfx nodes NAME' says all about one."]))
+        parts = {"values of the language": value_lines(), "groups": group_lines(groups)}
+        further = [line for title, lines in parts.items() for line in ("", title, *(f"  {line}" for line in lines))]
+        click.echo("\n".join([table(types), *further, "", "'graphfx nodes NAME' says all about one."]))
     if problems:
         show(problems)
         context.exit(EXIT_GRAPH)
