@@ -72,6 +72,12 @@ class Graph(Language):
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._draft.library, *self._draft.groups]
 
+    def __repr__(self) -> str:
+        return f"<graph of {len(self._draft.nodes)} nodes: {', '.join(self._draft.nodes)}>"
+
+    def __str__(self) -> str:
+        return self.text
+
     def node(self, type: str, id: str = "", /, **given: Any) -> Any:
         """Add a node of a type by its name: `g.node("vortex", "left")` is `g.vortex("left")`."""
         return maker_of(self, type)(id, **given)

@@ -83,6 +83,14 @@ def test_values_are_written_as_json_has_them() -> None:
                                        "magnitude": {"ramp": [[0, 0], [1, 2]], "over": "age"}}
 
 
+def test_graphs_are_shown() -> None:
+    """Printing a graph prints its canonical text; in a list it is known by its nodes."""
+    g = graphfx.Graph()
+    stream = g.node("emit", "spring")
+    assert str(g) == g.text == '{\n  "graphfx": 1,\n  "nodes": {\n    "spring": {"type": "emit"}\n  }\n}\n'
+    assert repr([g, stream, stream.gravity("fall")]) == "[<graph of 2 nodes: spring, fall>, <emit 'spring'>, <gravity 'fall'>]"
+
+
 def test_infinities_have_their_words() -> None:
     """Both infinities are written as the words that graphs know, wherever they stand."""
     assert plain((float("inf"), float("-inf"), np.float64("-inf"))) == ["infinity", "-infinity", "-infinity"]

@@ -72,3 +72,44 @@ def test_wrong_node_that_is_not_used(wrong_library, capsys: pytest.CaptureFixtur
     wrong_library("not_python")
     Path("graph.json").write_text(graph_with("gravity"))
     assert run(capsys, "check", "graph.json", "--library", "mine") == (0, "graph.json: nothing is wrong\n", "")
+
+
+SHAPE = '''"""Shape: a box that is made wrong."""
+
+from graphfx.geometry import Mesh, box
+from graphfx.node import geometry, param
+
+
+@geometry
+def shape(size: float = param(1.0, unit="m", min=0, doc="Length of its sides.")) -> Mesh:
+    """Return the box."""
+    sides = [size, size]
+    return box((*sides, sides[2]))
+'''
+STEP = '''"""Step: a value that is found when the graph is planned."""
+
+from graphfx.node import param, value
+
+
+@value
+def step(height: float = param(1.0, doc="Height of the step.")) -> float:
+    """Return the height."""
+    return heigth
+'''
+
+
+@pytest.mark.parametrize(("kind", "name", "text", "use", "told"), [
+    ("geometry", "shape", SHAPE, {"mesh": {"type": "shape"}, "source": {"type": "emit", "set": {
+        "position": {"on_surface": {"mesh": "mesh"}}}}},
+     "mine/nodes/geometry/shape.py:11: shape: IndexError: list index out of range\n"),
+    ("values", "step", STEP, {"source": {"type": "emit", "rate": {"step": {}}}},
+     "mine/nodes/values/step.py:9: step: there is no 'heigth' here. Did you mean 'height'?\n"),
+])
+def test_mistakes_that_show_before_the_cook(wrong_library, capsys, tmp_path, kind, name, text, use, told) -> None:
+    """What fails in plain Python, as a mesh is made or a constant found, is told at its line of the node."""
+    file = tmp_path / "mine" / "nodes" / kind / f"{name}.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(text)
+    nodes = {**use, "view": {"type": "camera"}, "frames": {"type": "image", "from": "source", "camera": "view", "size": [32, 18]}}
+    (tmp_path / "graph.json").write_text(json.dumps({"graphfx": 1, "time": {"frames": [1, 2]}, "nodes": nodes}))
+    assert run(capsys, "cook", "graph.json", "--library", "mine", "--json") == (1, "", told)
