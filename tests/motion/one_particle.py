@@ -19,12 +19,13 @@ def effect_of(
 ) -> Effect:
     """Return the effect of one particle that is born at `start` as the simulation begins."""
     time = {"fps": fps, "frames": [0, frames], "precision": 64, "method": method, "substeps": more.pop("substeps", 1)}
+    emit = more.pop("emit", {})
     sets = {"position": list(start), "velocity": list(velocity), **more}
     document = {
         "graphfx": 1,
         "time": time,
         "nodes": {
-            "one": {"type": "emit", "rate": 1, "during": [-1, 0.5 / fps if fps > 1 else 0.5], "set": sets},
+            "one": {"type": "emit", "rate": 1, "during": [-1, 0.5 / fps if fps > 1 else 0.5], "set": sets, **emit},
             "act": {"type": "stack", "from": "one", "ops": ops},
             "view": {"type": "camera"},
             "frames": {"type": "image", "from": "act" if ops else "one", "camera": "view", "shutter": 0},

@@ -66,14 +66,24 @@ def test_particles_that_bounce_keep_their_noise():
     assert bounced[0][:, 0].max() <= 0.4 < free[0][:, 0].max()
 
 
+def push_of(life: int, cell: int) -> np.ndarray:
+    """Return the push of the first particle of `one` in a life and a cell."""
+    words = philox4x32(counter_of(0, life, cell), key_of(0, "one", "act/random_acceleration"))
+    draw = tuple(uniform(word) for word in words)
+    return array(LIBRARY["random_acceleration"].function(draw, np.float64(5.0), Vec3(*map(np.float64, (1, 1, 1)))))
+
+
 def test_draws_are_philox_of_seed_path_id_and_cell():
     """The push of the first 1/24 s is what the counter (id, life 0, cell 0) gives, and that of the next cell 1's."""
     _, velocity = path([PUSH], (0, 0, 0), frames=2)
     for cell in (0, 1):
-        words = philox4x32(counter_of(0, 0, cell), key_of(0, "one", "act/random_acceleration"))
-        draw = tuple(uniform(word) for word in words)
-        wanted = LIBRARY["random_acceleration"].function(draw, np.float64(5.0), Vec3(*map(np.float64, (1, 1, 1))))
-        np.testing.assert_allclose((velocity[cell + 1] - velocity[cell]) * 24, array(wanted), rtol=1e-12)
+        np.testing.assert_allclose((velocity[cell + 1] - velocity[cell]) * 24, push_of(0, cell), rtol=1e-12)
+
+
+def test_another_life_has_its_own_pushes():
+    """Who begins a second life at 1/40 s, within the first cell, is pushed by the counter (id, life 1, cell 0) from there."""
+    _, velocity = path([PUSH, {"type": "recycle"}], (0, 0, 0), frames=1, emit={"life": 1 / 40})
+    np.testing.assert_allclose(velocity[1] * 60, push_of(1, 0), rtol=1e-9)
 
 
 def test_pushes_fill_the_ball_evenly():
