@@ -83,9 +83,12 @@ class BirthWriter:
         if scope == "parent" and rest not in ("age", "normalized_age"):
             return self.builder.load(name, self._lane(rest))
         if scope == "birth":
-            return self.found[rest]
+            return self._operand(rest)
         if name in self.holder.clusters or scope == "parent":
             return self.builder.load(f"number {name}" if scope != "parent" else name, "float")
+        if name in self.holder.table:
+            self.found[name] = self._writer().argument(self._value(name))
+            return self.found[name]
         raise KeyError(name)
 
     def _number(self, name: str) -> Operand:

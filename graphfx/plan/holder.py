@@ -124,8 +124,9 @@ class Holder:
         if listed is not None and name not in (*listed, "generation", "position"):
             return Literal(attribute.type, value=attribute.default)
         tree: Any = Name(f"parent.{name}")
-        if len(parents) == 1 and not parents[0].varies(name) and not _draws(parents[0].value(name)):
-            tree = parents[0].value(name)
+        if len(parents) == 1 and not parents[0].varies(name):
+            same = parents[0].value(name)
+            tree = tree if _draws(same) or names_in(same) else same
         if name == "generation":
             tree = Call("add", (tree, 1.0))
         return Expression(attribute.type, tree=tree)

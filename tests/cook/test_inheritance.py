@@ -61,3 +61,18 @@ def test_children_and_their_children_are_in_the_clusters_of_their_parents(by: st
     found = Effect(flatten(document_of(data), LIBRARY)).simulate(12)["two"]["color"]
     assert set(found[:, 1]) == {0.0, 1.0, 2.0, 3.0}
     np.testing.assert_array_equal(found[:, [0, 2]], found[:, [1, 1]])
+
+
+def test_what_a_parent_found_of_its_own_attributes_stays_the_parents() -> None:
+    """A radius that is twice the mass of the parent, one for all, is not twice the mass that the child is given."""
+    nodes = {"sky": {"type": "emit", "count": 2, "life": 0.25, "set": {"mass": 2, "radius": {"expr": "mass * 2"}}},
+             "it": {"type": "spawn", "from": "sky", "when": "death", "life": 9,
+                    "set": {"mass": 7, "position": {"expr": "rest_position + vec(0, radius, 0)"}}},
+             "mark": {"type": "set", "from": "it", "set": {"color": {"expr": "vec(radius, mass, 0)"}}},
+             "early": {"type": "set", "from": "sky", "when": "birth", "only": {"expr": "birth.mass > 1 and type == 0"},
+                       "set": {"fade_color": {"expr": "vec(lives, hits, birth.radius)"}}},
+             "view": {"type": "camera"}, "frames": {"type": "image", "from": ["mark", "early"], "camera": "view", "shutter": 0}}
+    data = {"graphfx": 1, "time": {"frames": [0, 12], "precision": 64}, "nodes": nodes}
+    found = Effect(flatten(document_of(data), LIBRARY)).simulate(12)["it"]
+    np.testing.assert_array_equal(found["color"], [[4, 7, 0]] * 2)
+    np.testing.assert_array_equal(found["position"], [[0, 4, 0]] * 2)
