@@ -147,7 +147,7 @@ class Lives:
             if particles.plan.mortal:
                 until = np.minimum(until, particles.death() - interval.start)
             rate = padded(np.zeros(count), self.programs.real)
-            given = {"begin": (padded(since, self.programs.real),), "rate": (rate,)}
+            given: dict[str, Any] = {"begin": (padded(since, self.programs.real),), "rate": (rate,)}
             given = {name: arrays for name, arrays in given.items() if name in spawn.rate.program.loads or name == "rate"}
             self.programs.run(spawn.rate, particles, interval, np.arange(count), by_place=given)
             self._leave(spawn, particles, interval, since, until, rate[:count].astype(np.float64))

@@ -51,7 +51,8 @@ class Nursery:
         store = particles.store
         if "resting" in store.columns:
             store.arrays("resting")[0][rows] = 0
-        given = {"number lives": (particles.gathered("lives", rows, self.programs.real)[0] + self.programs.real(1),)}
+        lives = particles.gathered("lives", rows, self.programs.real)[0]
+        given: dict[str, tuple[np.ndarray, ...]] = {"number lives": (lives + self.programs.real(1),)}
         given |= {
             f"number {name}": particles.gathered(name, rows, self.programs.real)
             for name in particles.plan.holder.clusters

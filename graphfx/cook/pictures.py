@@ -49,7 +49,7 @@ def _chosen(simulation: Simulation, drawn: Drawn, frame: int) -> Chosen:
         return Chosen(particles)
     count = particles.store.count
     selected = padded(np.zeros(count), np.uint8)
-    given = {"selected": (selected,)}
+    given: dict[str, Any] = {"selected": (selected,)}
     rows = np.arange(count)
     simulation.programs.run(drawn.selection, particles, simulation.interval, rows, by_place=given)
     return Chosen(particles, np.flatnonzero(selected[:count]))

@@ -127,7 +127,7 @@ class BirthWriter:
         for node in self.holder.of_role("set", "assign"):
             if moment_of(node) != "birth":
                 continue
-            setting = Setting(node, self._writer, self.builder, self.found)
+            setting = Setting(node, self._writer, self.builder, self.found.__getitem__)
             for name in setting.targets(self.attributes.types):
                 self.found[name] = as_column(self.builder, self.found[name], self._lane(name), name, always=True)
             setting.write(self.attributes.types)

@@ -10,7 +10,7 @@ from graphfx.motion import basic, events
 from graphfx.plan.holder import ENDING_ROLES, Holder, moment_of
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Mover
-from graphfx.plan.setting import Held, Setting, under_conditions
+from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Column, Operand
 
@@ -81,7 +81,7 @@ class Hits:
             inside.call(events.one_more, count, into=count)  # type: ignore[arg-type]
         for node in self.settings:
             if _hears(node, hit.surface):
-                Setting(node, lambda: writer_of(inside, told), inside, Held(read)).write(self.attributes.columns)
+                Setting(node, lambda: writer_of(inside, told), inside, read).write(self.attributes.columns)
         if fate is None:
             return
         for node in self.endings:

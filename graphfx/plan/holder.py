@@ -37,7 +37,7 @@ def draws_in(tree: Any) -> bool:
     own = isinstance(tree, Random) or (
         isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
     )
-    scoped = tree.per in ("life", "particle", "hit", "frame") or getattr(tree, "vary", 0) if own else False
+    scoped = tree.per in ("life", "particle", "hit", "frame") or getattr(tree, "vary", 0.0) > 0 if own else False
     reads = isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
     return bool(scoped) or reads or any(draws_in(part) for part in children(tree))
 

@@ -23,28 +23,17 @@ def as_column(builder: Builder, operand: Operand, type_: str, name: str, always:
 
 
 @dataclass
-class Held:
-    """Columns of attributes by name."""
-
-    read: Callable[[str], Operand]
-
-    def __getitem__(self, name: str) -> Operand:
-        """Return an attribute's column."""
-        return self.read(name)
-
-
-@dataclass
 class Setting:
     """One such operator at one moment.
 
-    `held` are the columns of the attributes by name; `writer` makes what finds values as they are now, so that each
+    `column` finds the column of an attribute; `writer` makes what finds values as they are now, so that each
     attribute of a `set` may read those that it set before.
     """
 
     node: FlatNode
     writer: Callable[[], ValueWriter]
     builder: Builder
-    held: Held | dict[str, Any]
+    column: Callable[[str], Any]
     dt: Operand | None = None
 
     def targets(self, live: Collection[str]) -> list[str]:
@@ -62,7 +51,7 @@ class Setting:
             self._assign(inside, live)
             return inside
         for name in names:
-            writer, into = self.writer(), self.held[name]
+            writer, into = self.writer(), self.column(name)
             value, vector = writer.argument(self.node.sets[name]), into.type == "vec3"
             if self.node.node_type.role == "fade":
                 rate = writer.argument(self.node.arguments["rate"])
@@ -87,7 +76,7 @@ class Setting:
         results = results if isinstance(results, tuple) else (results,)
         for name, result in zip(node_type.writes, results, strict=True):
             if name in live:
-                into = self.held[name]
+                into = self.column(name)
                 inside.call(basic.copy_vector if into.type == "vec3" else basic.copy_number, result, into=into)
 
 

@@ -18,7 +18,7 @@ from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
-from graphfx.plan.setting import Held, Setting, under_conditions
+from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -100,7 +100,7 @@ class FrameWriter:
     def _start(self, builder: Builder, moments: Moments, k: int, state: State, event: Column | None) -> Column | None:
         """Write what happens at the start of a step: attributes are set, and who ends is noted."""
         for node in self.settings:
-            Setting(node, lambda: moments.fixed(builder, ("start", k), state), builder, Held(state.read)).write(
+            Setting(node, lambda: moments.fixed(builder, ("start", k), state), builder, state.read).write(
                 self.attributes.columns
             )
         for node in self.endings:
@@ -112,7 +112,7 @@ class FrameWriter:
     def fade(self, moment: Moment, state: State) -> None:
         """Write what fades over a step."""
         for node in self.fades:
-            Setting(node, lambda: moment.writer, moment.builder, Held(state.read), moment.dt).write(self.attributes.columns)
+            Setting(node, lambda: moment.writer, moment.builder, state.read, moment.dt).write(self.attributes.columns)
 
     def own(self, motion_blur: bool) -> FrameProgram:
         """Return the program for particles with times of their own: `begin` and `end` come by place."""
@@ -163,7 +163,7 @@ class FrameWriter:
             here = builder.call(basic.both, here, builder.call(events.is_going_on, turn.fate.fate), name="here")
         inside = builder.under(here)
         for node in self.settings:
-            written = Setting(node, lambda: moments.fixed(inside, ("start", k), state), inside, Held(state.read)).write(
+            written = Setting(node, lambda: moments.fixed(inside, ("start", k), state), inside, state.read).write(
                 self.attributes.columns
             )
             moved = {"position", "velocity"} & {*node.sets, *node.node_type.writes}
@@ -202,7 +202,7 @@ class FrameWriter:
         state = moments.state(builder, self.motion.has_velocity, "tail" if opening else "position")
         time = "opening" if opening else "frame end"
         for node in nodes:
-            Setting(node, lambda: moments.fixed(builder, time, state), builder, Held(state.read)).write(live)
+            Setting(node, lambda: moments.fixed(builder, time, state), builder, state.read).write(live)
         for node in kills:
             fate = builder.program.stores.get("fate") or builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="fate")
             inside = under_conditions(node, moments.fixed(builder, time, state), builder)
@@ -226,7 +226,7 @@ class FrameWriter:
         state = moments.state(builder, self.motion.has_velocity)
         begin = builder.load("begin", "float")
         for node in settings:
-            Setting(node, lambda: moments.at(builder, begin, state), builder, Held(state.read)).write(self.attributes.columns)
+            Setting(node, lambda: moments.at(builder, begin, state), builder, state.read).write(self.attributes.columns)
         renewed = builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="renewed")
         for node in recycles:
             builder.note = node.path

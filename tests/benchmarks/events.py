@@ -23,7 +23,8 @@ from graphfx.lanes.host import use_wide_registers
 from graphfx.node import Library, library_roots
 
 FRAMES = 6
-FALL: dict[str, Any] = {"position": {"in_box": {"min": [-1, 50, -1], "max": [1, 100, 1]}}, "velocity": {"in_sphere": {"radius": 1}}}
+HIGH = {"in_box": {"min": [-1, 50, -1], "max": [1, 100, 1]}}
+FALL: dict[str, Any] = {"position": HIGH, "velocity": {"in_sphere": {"radius": 1}}}
 MOVE = [{"type": "gravity"}, {"type": "damp", "damping": 0.1}]
 SHARES = (0.001, 0.01, 0.1)
 
@@ -53,10 +54,14 @@ def cases() -> dict[str, tuple[dict[str, Any], list[dict[str, Any]], dict[str, A
             made[f"bounce, {name}"] = (falling, [{"type": "bounce_plane", "resilience": 1}], {}, share)
             counted = [{"type": "bounce_plane", "resilience": 1}, {"type": "set", "when": "hit", "set": {"color": [1, 0, 0]}}]
             made[f"bounce and set, {name}"] = (falling, counted, {}, share)
-    made["kill on a condition, nobody"] = ({"set": FALL}, [*MOVE, {"type": "kill", "only": {"expr": "position.y < -1000"}}], {}, 0.0)
-    made["set each step"] = ({"set": FALL}, [*MOVE, {"type": "set", "when": "step", "set": {"color": {"expr": "velocity"}}}], {}, 1.0)
-    made["fade"] = ({"set": FALL}, [*MOVE, {"type": "fade", "set": {"color": [1, 0, 0]}}], {}, 1.0)
-    made["set each frame"] = ({"set": FALL}, [*MOVE, {"type": "set", "set": {"color": {"expr": "velocity"}}}], {}, 1.0)
+    paint = {"set": {"color": {"expr": "velocity"}}}
+    others: dict[str, tuple[dict[str, Any], float]] = {
+        "kill on a condition, nobody": ({"type": "kill", "only": {"expr": "position.y < -1000"}}, 0.0),
+        "set each step": ({"type": "set", "when": "step", **paint}, 1.0),
+        "set each frame": ({"type": "set", **paint}, 1.0),
+        "fade": ({"type": "fade", "set": {"color": [1, 0, 0]}}, 1.0),
+    }
+    made |= {name: ({"set": FALL}, [*MOVE, operator], {}, share) for name, (operator, share) in others.items()}
     return made
 
 
@@ -109,7 +114,7 @@ def main() -> None:
     middle = {name: statistics.median(times) / options.count * 1e9 for name, times in found.items()}
     print(f"{'case':34} ns a particle and frame   more for each touched")
     for name, nanoseconds in middle.items():
-        kind, _, share = name.partition(", ")
+        kind = name.partition(", ")[0]
         base = middle.get(f"{kind}, nobody", middle["motion alone"])
         more = f"{(nanoseconds - base) / shares[name]:8.0f} ns" if shares[name] else ""
         print(f"{name:34} {nanoseconds:8.1f}                  {more}")
