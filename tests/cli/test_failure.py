@@ -13,7 +13,7 @@ from graphfx.graph import check as check_module
 
 WRONG_GRAPH = """\
 fountain.json:1:190: nodes.spring.rte: emit has no parameter 'rte'. Did you mean 'rate'?
-  emit takes: rate [1/s], life [s], count, every [s]
+  emit takes: rate [1/s], life [s], count, vertices, every [s]
   declared in nodes/emitters/emit.py
 fountain.json:1:332: nodes.fall.ops[0].type: there is no node type 'gravty'. Did you mean 'gravity'?
 """
