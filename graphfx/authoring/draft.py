@@ -38,13 +38,13 @@ class Draft:
         groups: dict[str, str] = self.data.get("use", {})
         return groups
 
-    def document(self) -> Document:
-        """Return the whole as a document."""
-        return document_of({**self.data, "nodes": self.nodes}, self.file, self.folder)
+    def document(self, folder: Path | None = None) -> Document:
+        """Return the whole as a document, which lies in a folder."""
+        return document_of({**self.data, "nodes": self.nodes}, self.file, folder or self.folder)
 
-    def problems(self) -> list[Problem]:
-        """Return everything that is wrong with the whole, with the lines that wrote it."""
-        return self.told(check(self.document(), self.library))
+    def problems(self, folder: Path | None = None) -> list[Problem]:
+        """Return everything that is wrong with the whole as it lies in a folder, with the lines that wrote it."""
+        return self.told(check(self.document(folder), self.library))
 
     def told(self, problems: list[Problem]) -> list[Problem]:
         """Return problems of the document with lines of Python instead of places in its text."""

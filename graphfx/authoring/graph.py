@@ -98,10 +98,10 @@ class Graph(Language):
         return canonical(self._draft.document(), self._draft.library)
 
     def save(self, path: str | Path) -> Path:
-        """Write the canonical text; raise GraphError with everything that is wrong. Return the path."""
+        """Write the canonical text; raise GraphError with everything that is wrong with it there. Return the path."""
         from graphfx.output.atomic import whole_file
 
-        found = self.problems()
+        found = self._draft.problems(Path(path).parent)
         if found:
             raise GraphError(found)
         with whole_file(str(path)) as stream:

@@ -113,6 +113,22 @@ def test_what_only_the_whole_shows(tmp_path: Path) -> None:
     assert not (tmp_path / "wrong.json").exists()
 
 
+def test_saving_where_a_group_is_not(tmp_path: Path) -> None:
+    """A graph whose groups are not to be found from where it is saved is not saved there."""
+    (tmp_path / "out").mkdir()
+    group = graphfx.Graph("Nothing.")
+    group.output(particles=group.input("particles").gravity("fall"))
+    group.save(tmp_path / "fall.json")
+    g = graphfx.Graph(folder=tmp_path)
+    g.use("fall.json", "falling")
+    used = line() - 1
+    g.emit("sky").stack("all").falling()
+    g.save(tmp_path / "whole.json")
+    with pytest.raises(GraphError) as error:
+        g.save(tmp_path / "out" / "whole.json")
+    assert told(error).splitlines()[0] == f"{HERE}:{used}: use.falling: there is no file 'fall.json'."
+
+
 @pytest.mark.parametrize(("call", "message"), [
     (lambda g: g.emit(4000), "what stands first in emit(...) is its id, a text; give everything else by name"),
     (lambda g: g.in_box("a"), "in_box is a value and has no id; give its parameters by name"),
