@@ -5,6 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.graph.document import document_of
+from graphfx.graph.flatten import flatten
+from graphfx.node import Library, library_roots
+from graphfx.plan.make import make_plan
+
 from .one_particle import LIBRARY, effect_of, path
 from .test_linear import array, vector
 
@@ -127,3 +132,34 @@ def test_one_vortex_is_exact():
     assert found.plan.emitters["one"].method == "exact"
     once, often = (path(FIELDS["two vortices"][:1], (1, 2, 0.5), fps=fps, frames=fps)[0][-1] for fps in (1, 1000))
     np.testing.assert_allclose(once, often, rtol=0, atol=1e-11)
+
+
+SWAY = '''"""Sway: dP/dt = cos(time)."""
+
+from graphfx.math import Vec3, cos
+from graphfx.node import operator
+
+
+@operator.flow(writes="position")
+def sway(position: Vec3, dt: float, time: float) -> Vec3:
+    """Return the position after dt."""
+    return position + Vec3(cos(time) * dt, dt * 0.0, dt * 0.0)
+'''
+
+
+def test_a_flow_that_reads_the_time_is_not_called_exact(tmp_path):
+    """A flow that differs from time to time is taken at the middle of each step, and the plan does not call it exact."""
+    file = tmp_path / "nodes" / "operators" / "sway.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(SWAY)
+    document = {
+        "graphfx": 1,
+        "nodes": {
+            "sky": {"type": "emit"},
+            "act": {"type": "sway", "from": "sky"},
+            "view": {"type": "camera"},
+            "frames": {"type": "image", "from": "act", "camera": "view"},
+        },
+    }
+    plan = make_plan(flatten(document_of(document), Library(library_roots([tmp_path]))))
+    assert plan.emitters["sky"].method == "strang"
