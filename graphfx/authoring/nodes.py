@@ -69,7 +69,7 @@ def maker_of(graph: Graph, name: str, source: Node | None = None) -> Callable[..
             return source
         if source is not None and "inputs" not in entry:
             entry.setdefault("from", source)
-        return _node(graph, id or name, {"type": name, **entry, **({"ops": []} if name == "stack" else {})})
+        return _node(graph, id or name, {"type": name, **({"ops": []} if name == "stack" else {}), **entry})
 
     return _described(make, name, node_type)
 

@@ -91,6 +91,12 @@ def test_graphs_are_shown() -> None:
     assert repr([g, stream, stream.gravity("fall")]) == "[<graph of 2 nodes: spring, fall>, <emit 'spring'>, <gravity 'fall'>]"
 
 
+def test_operators_may_be_given_as_data() -> None:
+    """The operators that a stack is given as JSON data stay, before those called on it."""
+    stack = graphfx.Graph().emit("sky").stack("fall", ops=[{"type": "gravity"}]).damp()
+    assert [op["type"] for op in stack._graph.data["nodes"]["fall"]["ops"]] == ["gravity", "damp"]
+
+
 def test_infinities_have_their_words() -> None:
     """Both infinities are written as the words that graphs know, wherever they stand."""
     assert plain((float("inf"), float("-inf"), np.float64("-inf"))) == ["infinity", "-infinity", "-infinity"]
