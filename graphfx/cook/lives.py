@@ -10,7 +10,7 @@ import numpy as np
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.programs import Programs
-from graphfx.cook.spawns import Occasion, Spawns
+from graphfx.cook.spawns import MOST, Occasion, Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Interval
 from graphfx.motion.events import DIES, HELD, REBORN
@@ -156,8 +156,10 @@ class Lives:
         store = particles.store
         made = store.column(f"made {spawn.path}")[0]
         done = made.copy()
-        made += rate * np.maximum(until - since, 0.0)
-        counts = np.floor(made).astype(np.int64) - np.floor(done).astype(np.int64)
+        made += np.nan_to_num(rate, nan=0.0, posinf=float(MOST)) * np.maximum(until - since, 0.0)
+        births = np.floor(made) - np.floor(done)
+        self.spawns.refuse(spawn, float(births.sum()))
+        counts = births.astype(np.int64)
         parents = np.repeat(np.arange(store.count), counts)
         if not len(parents):
             return

@@ -80,19 +80,22 @@ class Spawns:
         offspring = np.nan_to_num(offspring, nan=0.0, posinf=float(MOST))
         if np.isfinite(spawn.generations):
             offspring[self._generation(parents, rows) + 1 > spawn.generations] = 0.0
+        self.refuse(spawn, float(offspring.sum(dtype=np.float64)))
+        return offspring.astype(np.int64)
+
+    def refuse(self, spawn: SpawnPlan, made: float) -> None:
+        """Raise LimitError where so many children would not fit."""
         home = self.particles[spawn.home]
         waiting = sum(len(arrivals.times) for arrivals in home.arrivals)
-        made = float(offspring.sum(dtype=np.float64))
         total, limit = home.store.count + waiting + made, min(self.limit or MOST, MOST)
         needed = (waiting + made) * BYTES_ON_THE_WAY
         if total > limit or needed > memory() / 2:
             what = f"the limit is {limit:,}" if total > limit else f"{needed / 2**30:,.0f} GiB would be needed"
             message = (
-                f"{total:,.0f} particles would be alive at once, and {what}; lower its count, its probability or its "
-                "generations" + (", or allow more with --limit-particles" if total > limit else "")
+                f"{total:,.0f} particles would be alive at once, and {what}; lower its count, its rate, its probability or "
+                "its generations" + (", or allow more with --limit-particles" if total > limit else "")
             )
             raise LimitError(Problem(message, spawn.node.location, f"nodes.{spawn.path}"))
-        return offspring.astype(np.int64)
 
     @staticmethod
     def _generation(parents: Particles, rows: np.ndarray) -> np.ndarray:

@@ -76,7 +76,9 @@ class Motion:
         self.linear.prepare(moment, state)
 
     def step(self, moment: Moment, state: State) -> None:
-        """Write one step of dt, in place."""
+        """Write one step of dt, in place; what stands at one place for all does not move."""
+        if not isinstance(state.position, Column):
+            return
         self.select(moment)
         for mover in self.movers:
             if mover.idle and mover.role in INNER_ROLES:
