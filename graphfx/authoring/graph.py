@@ -67,7 +67,8 @@ class Graph(Language):
         """Return a node that the graph has."""
         if id not in self._draft.nodes:
             raise missing(f"there is no node '{id}'.", id, self._draft.nodes)
-        return (Stack if self._draft.nodes[id]["type"] == "stack" else Node)(self, id)
+        node = self._draft.nodes[id]
+        return (Stack if isinstance(node, dict) and node.get("type") == "stack" else Node)(self, id)
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._draft.library, *self._draft.groups]
