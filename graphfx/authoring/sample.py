@@ -43,7 +43,7 @@ class Sample:
             self.nodes["motion"] = {"type": "stack", "from": "source", "ops": [{"type": "set", "set": {kept: value}}]}
             self.seen = "motion"
         elif node_type.result[0] == "vec3":
-            self.source["set"]["position"] = value
+            self.source["set"] = {"position": value}
         else:
             self.source["values"] = {"drawn": value}
             passes = "2 if drawn else 1" if node_type.result[0] == "bool" else "drawn"
@@ -57,7 +57,10 @@ class Sample:
         self.seen = "motion"
 
     def _selectors(self, node_type: NodeType) -> None:
-        self.nodes["chosen"] = {"type": node_type.name, "from": "source", **self._given(node_type)}
+        if "hits" in node_type.reads:
+            self.nodes["motion"] = {"type": "stack", "from": "source", "ops": [{"type": "gravity"}, {"type": "bounce_plane"}]}
+            self.seen = "motion"
+        self.nodes["chosen"] = {"type": node_type.name, "from": self.seen, **self._given(node_type)}
         self.seen = "chosen"
 
     def _emitters(self, node_type: NodeType) -> None:
@@ -70,7 +73,7 @@ class Sample:
         users = [user for name in self.library if self.library.kind_of(name) == "values" and (user := self.library[name])
                  and any(parameter.type == "mesh" for parameter in user.parameters.values())]
         if users:
-            self._values(min(users, key=lambda user: "draw" not in user.reserved))
+            self._values(max(users, key=lambda user: ("draw" in user.reserved, len(user.result))))
 
     def _given(self, node_type: NodeType) -> dict[str, Any]:
         """Return the parameters to state: required ones, and one where the defaults do nothing."""
