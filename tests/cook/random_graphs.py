@@ -74,7 +74,7 @@ class GraphMaker:
         makers = {
             "spiral": lambda: {"speed": self.scalar(-5, 5)},
             "gravity": lambda: {"acceleration": self.vector(9)},
-            "damp": lambda: {"damping": self.scalar(-2, 9)},
+            "damp": lambda: {"damping": self.scalar(-2, 9), "threshold": self.random.choice((0, 0.5))},
             "vortex": lambda: {
                 "magnitude": self.scalar(-5, 5),
                 "center": self.vector(),
@@ -82,6 +82,18 @@ class GraphMaker:
                 "lift": self.scalar(-1, 1),
             },
             "translate": lambda: {"rate": self.vector()},
+            "rotate": lambda: {"speed": self.scalar(-5, 5), "axis": self.vector()},
+            "scale": lambda: {"rate": self.scalar(-3, 3), "center": self.vector()},
+            "spring": lambda: {"frequency": self.scalar(0, 30), "damping_ratio": self.scalar(0, 2)},
+            "wind": lambda: {"drag": self.scalar(0, 9), "wind": self.vector()},
+            "undamp": lambda: {"rate": self.scalar(0, 9), "threshold": self.scalar(0, 3)},
+            "drag": lambda: {"strength": self.scalar(0, 9), "wind": self.vector()},
+            "attract": lambda: {"strength": self.scalar(-9, 9), "center": self.vector(), "as_force": bool(place % 2)},
+            "attract_line": lambda: {"strength": self.scalar(-9, 9), "axis": self.vector()},
+            "curl_noise": lambda: {"speed": self.scalar(-2, 2), "size": self.scalar(0.1, 2)},
+            "turbulence": lambda: {"strength": self.scalar(-2, 2), "rate": self.scalar(0, 2)},
+            "random_acceleration": lambda: {"strength": self.scalar(-2, 2), "along": self.vector()},
+            "random_translate": lambda: {"speed": self.scalar(-2, 2)},
             "bounce_plane": lambda: {"normal": self.vector(), **bounce},
             "bounce_sphere": lambda: {"center": self.vector(), "sphere_radius": self.number(0.1, 1), **bounce},
         }
