@@ -73,7 +73,7 @@ class Sample:
         users = [user for name in self.library if self.library.kind_of(name) == "values" and (user := self.library[name])
                  and any(parameter.type == "mesh" for parameter in user.parameters.values())]
         if users:
-            self._values(max(users, key=lambda user: ("draw" in user.reserved, len(user.result))))
+            self._values(min(users, key=lambda user: "draw" not in user.reserved))
 
     def _given(self, node_type: NodeType) -> dict[str, Any]:
         """Return the parameters to state: required ones, and one where the defaults do nothing."""
