@@ -14,9 +14,14 @@ def _has_role(movers: list[Mover], *roles: str) -> bool:
     return any(mover.role in roles for mover in movers)
 
 
+def _acting(movers: list[Mover]) -> list[Mover]:
+    """Return the operators that act at all: one that never does changes nothing, not even the method."""
+    return [mover for mover in movers if not mover.idle]
+
+
 def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
     """Return how many cells of held noise a step may meet; it is split where they meet. The paper's steps are whole."""
-    if not _has_role(movers, "noise") or method == "sims":
+    if not _has_role(_acting(movers), "noise") or method == "sims":
         return 1
     return most_cells(time.fps, time.preroll, time.substeps)
 
@@ -29,6 +34,7 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[s
     asked = flat.time.method
     if asked == "sims":
         return "sims", "asked for: the paper's scheme, first order, operations in stack order"
+    movers = _acting(movers)
     inner = [mover for mover in movers if mover.role in INNER_ROLES]
     parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
     if not parts or (drifts and not _has_role(movers, *LINEAR_ROLES)):

@@ -69,7 +69,8 @@ IDLE = {
     "off": {"type": "vortex", "from": "sky", "enabled": False},
     "unread": {"type": "damp", "from": "idle"},
 }
-STACKS = {"linear": OPS[:3], "flows": OPS[3:5], "all": OPS, "none": []}
+DRAG, NOISE = {"type": "drag"}, {"type": "random_translate"}
+STACKS = {"linear": OPS[:3], "flows": OPS[3:5], "all": OPS, "none": [], "drag": [DRAG], "noise": [NOISE, {"type": "spring"}]}
 
 
 def unpruned(found: Effect) -> Effect:
@@ -97,6 +98,10 @@ NEVER = [
     {"type": "damp", "id": "no_damp", "during": [90, 91]},
     {"type": "gravity", "id": "no_gravity", "during": [-9, -8]},
     {"type": "bounce_sphere", "id": "no_sphere", "during": [90, 91]},
+    {"type": "drag", "id": "no_drag", "during": [90, 91]},
+    {"type": "random_acceleration", "id": "no_noise", "during": [90, 91]},
+    {"type": "curl_noise", "id": "no_curl", "during": [90, 91]},
+    {"type": "spring", "id": "no_spring", "during": [90, 91]},
 ]
 
 
