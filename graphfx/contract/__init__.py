@@ -35,5 +35,7 @@ def truths_of(subject: Subject) -> list[Truth]:
     """Return all that must be true of a node: functions, whose names and docs say what."""
     claimed = [truth for truth in OF_ROLES if claims.applies(subject, truth)]
     if subject.is_shape:
-        claimed = [*claimed, truths.makes_sound_meshes]
+        claimed.append(truths.makes_sound_meshes)
+    if subject.draws:
+        claimed.append(truths.stays_finite_at_the_ends_of_draws)
     return [*ALL, *(OF_FUNCTIONS if subject.is_function else ()), *claimed]

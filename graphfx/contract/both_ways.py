@@ -102,20 +102,22 @@ def finite(results: Columns) -> np.ndarray:
     return np.all([np.isfinite(part) for parts in results.values() for part in parts], axis=0)
 
 
-def plainly(node_type: NodeType, row: Row, **changed: Any) -> tuple[np.ndarray, ...]:
-    """Return what a node's function gives in plain Python in float64, each result as an array."""
+def plainly(node_type: NodeType, row: Row, real: Any = np.float64, **changed: Any) -> tuple[np.ndarray, ...]:
+    """Return what a node's function gives in plain Python, each result as an array; `real` is the type of its numbers."""
     given = {**row, **changed}
     types = {name: node_type.argument_type(name) for name in node_type.arguments}
-    arguments = [MESH.of(np.float64) if kind == "mesh" else _scalar(kind, given[name]) for name, kind in types.items()]
+    arguments = [MESH.of(real) if kind == "mesh" else _scalar(kind, given.get(name, 0), real) for name, kind in types.items()]
     with np.errstate(all="ignore"):
         results = node_type.function(*arguments)
     several = results if isinstance(results, tuple) else (results,)
     return tuple(np.array([*result], float) if isinstance(result, Vec3) else np.array([result], float) for result in several)
 
 
-def _scalar(kind: str, value: Any) -> Any:
+def _scalar(kind: str, value: Any, real: Any) -> Any:
     if kind == "bool":
         return np.bool_(value)
-    if np.size(value) == 3:
-        return Vec3(*(np.float64(part) for part in value))
-    return np.float64(value)
+    if kind == "draw":
+        return tuple(real(part) for part in value)
+    if kind == "id":
+        return int(value)
+    return Vec3(*(real(part) for part in value)) if np.size(value) == 3 else real(value)

@@ -27,6 +27,11 @@ class Subject:
         return not self.node_type.language and self.node_type.kind != "geometry" and all(kind in _ON_LANES for kind in kinds)
 
     @property
+    def draws(self) -> bool:
+        """Whether it is a function that is handed random numbers."""
+        return self.is_function and "draw" in self.node_type.arguments
+
+    @property
     def is_shape(self) -> bool:
         """Whether it makes a mesh from numbers and texts alone."""
         required = [parameter.type for parameter in self.node_type.parameters.values() if parameter.required]

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from itertools import product
 from typing import Any
 
 import numpy as np
 
 from graphfx.authoring.sample import example
-from graphfx.contract.both_ways import finite, same_bits
-from graphfx.contract.inputs import shown
+from graphfx.contract.both_ways import finite, plainly, same_bits
+from graphfx.contract.inputs import Inputs, shown
 from graphfx.contract.subject import Subject
 from graphfx.errors import GraphfxError
 from graphfx.geometry.mesh import checked
@@ -18,6 +19,7 @@ from graphfx.node import NUMERIC_TYPES, Parameter
 
 Truth = Callable[[Subject], None]
 PRECISIONS = (32, 64)
+ROWS = 3
 
 
 def is_documented(subject: Subject) -> None:
@@ -74,6 +76,15 @@ def stays_finite(subject: Subject) -> None:
         wrong = np.flatnonzero(~finite(subject.on_machine(precision)))
         assert not wrong.size, (f"{wrong.size} of {len(subject.rows)} rows are not finite in float{precision}, for instance "
                                 f"with {shown(subject.rows[wrong[0]])}; bound the parameter, or the result by where(...)")
+
+
+def stays_finite_at_the_ends_of_draws(subject: Subject) -> None:
+    """Its results are finite for the least and the greatest random numbers: 0, and the last before 1."""
+    rows = Inputs(subject.node_type, seed=5).ordinary_rows(ROWS)
+    for real, last in ((np.float32, 1 - 2.0**-24), (np.float64, 1 - 2.0**-32)):
+        for row, draw in product(rows, product((0.0, last), repeat=4)):
+            results = plainly(subject.node_type, row, real, draw=draw)
+            assert all(np.isfinite(result).all() for result in results), f"it is not finite for the draw {draw} with {shown(row)}"
 
 
 def makes_sound_meshes(subject: Subject) -> None:

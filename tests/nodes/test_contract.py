@@ -22,6 +22,7 @@ FAULTS = [
     ("misled", "has_its_linear_form", "its linear form is not its rate of change: ["),
     ("averted", "stops_a_way", "its plane does not part start from end with start="),
     ("busy", "does_nothing_when_neutral", "it says that it is neutral when strength == 0, and is not: ["),
+    ("endless", "stays_finite_at_the_ends_of_draws", "it is not finite for the draw (0.0, 0.0, 0.0, 0.0) with "),
     ("torn", "makes_sound_meshes",
      "the mesh has triangles with corners that are not there: vertices count from 0 to 2 with size=3"),
     ("terse", "is_documented", "the first line of its file should begin with a capital: 'no sentence'"),
