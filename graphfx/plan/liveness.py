@@ -76,24 +76,20 @@ class Reading:
             self.note(["lives"], node.path)
         for node in self.holder.adders:
             self.note(["generation"], node.path)
-        waiting = self.holder.of_role(*SETTING_ROLES)
+        setting = self.holder.of_role(*SETTING_ROLES)
+        noted: set[tuple[str, str]] = set()
         while True:
-            acting = [node for node in waiting if self.wanted(node)]
-            if not acting:
+            found = [(node, name) for node in setting for name in self.targets(node) if (node.path, name) not in noted]
+            if not found:
                 return
-            for node in acting:
-                waiting.remove(node)
+            for node, name in found:
+                noted.add((node.path, name))
                 self.note(_read_by(node), node.path)
-                for name in self.targets(node):
-                    self.note(names_in(node.sets[name]) if name in node.sets else (), node.path)
+                self.note(names_in(node.sets[name]) if name in node.sets else (), node.path)
 
     def targets(self, node: FlatNode) -> list[str]:
         """Return the attributes that a setting operator gives and that are read."""
         return [name for name in (*node.sets, *node.node_type.writes) if name in self.readers]
-
-    def wanted(self, node: FlatNode) -> bool:
-        """Return whether a setting operator gives anything that is read."""
-        return bool(self.targets(node))
 
 
 def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> Attributes:

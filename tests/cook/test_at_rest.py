@@ -43,3 +43,12 @@ def test_an_endless_trail_is_refused(rate: Any) -> None:
     made = effect("it", sky={"type": "emit", "count": 2}, it={"type": "spawn", "from": "sky", "rate": rate})
     with pytest.raises(LimitError, match="particles would be alive at once"):
         made.simulate(5)
+
+
+def test_what_one_target_of_a_fade_reads_another_may_give() -> None:
+    """Of two attributes that fade together, one is read by the other alone; what it is drawn by is stored too."""
+    fade = {"type": "fade", "from": "sky", "rate": 100, "set": {
+        "radius": {"expr": "mass"}, "mass": {"rand": [1, 2], "per": "part"}}}
+    made = effect("it", sky={"type": "emit", "count": 4, "clusters": {"part": {"count": 2}}}, it=fade)
+    found = made.simulate(5)["sky"]["radius"]
+    assert ((found > 0.99) & (found < 2)).all() and len(set(np.round(found, 6))) == 2
