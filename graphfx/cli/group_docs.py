@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from graphfx.cli.node_docs import parameter_lines, parameter_words
+from graphfx.cli.node_docs import parameter_data, parameter_lines, parameter_words
 from graphfx.errors import GraphfxError
 from graphfx.graph.check_document import read_graph
 from graphfx.graph.checking import Checking
@@ -71,6 +71,13 @@ def describe_group(group: Group, library: Library) -> str:
     parts += [f"{name}: {', '.join(streams)}" for name, streams in (("takes", graph.inputs), ("gives", graph.outputs)) if streams]
     text = canonical(document_of(group_sample(group)), library)
     return "\n".join([*parts, "", "A graph that runs", "", text.rstrip()])
+
+
+def group_data(group: Group) -> dict[str, Any]:
+    """Return everything about a group as JSON data."""
+    graph = group.graph
+    return {"name": group.name, "kind": "group", "use": group.path, "doc": graph.doc, "parameters": parameter_data(graph.params),
+            "inputs": list(graph.inputs), "outputs": list(graph.outputs), "sample": group_sample(group)}
 
 
 def group_sample(group: Group) -> dict[str, Any]:

@@ -78,13 +78,17 @@ def signature(node_type: NodeType) -> str:
 
 def node_data(node_type: NodeType, library: Library) -> dict[str, Any]:
     """Return everything about a node type as JSON data."""
-    parameters = {
+    return {"name": node_type.name, "kind": node_type.kind, "role": node_type.role, "doc": node_type.doc.strip(),
+            "parameters": parameter_data(node_type.parameters), **facts(node_type), "sample": sample(node_type, library)}
+
+
+def parameter_data(parameters: Mapping[str, Parameter]) -> dict[str, Any]:
+    """Return the declarations of parameters as JSON data, by name."""
+    return {
         parameter.name: {"type": parameter.type, "default": json.loads(default_text(parameter)) if _stated(parameter) else None,
                          "required": parameter.required, "unit": parameter.unit, "min": parameter.min, "max": parameter.max,
                          "choices": list(parameter.choices), "doc": parameter.doc}
-        for parameter in node_type.parameters.values()}
-    return {"name": node_type.name, "kind": node_type.kind, "role": node_type.role, "doc": node_type.doc.strip(),
-            "parameters": parameters, **facts(node_type), "sample": sample(node_type, library)}
+        for parameter in parameters.values()}
 
 
 def mentions(word: str, texts: Mapping[str, tuple[str, ...]]) -> list[str]:

@@ -155,6 +155,11 @@ def test_groups_are_listed_and_described(invoke) -> None:
     assert told.startswith("gust (group groups/gust.json)\n\nA gust of wind: ")
     assert re.search(r"^  start \[m\] +point +\[-10, 3, 0\] +Where the gust sets out\.$", told, re.MULTILINE)
     assert "\ntakes: particles\ngives: particles\n" in told
+    data = json.loads(invoke("nodes", "gust", "--json").out)
+    assert (data["kind"], data["use"]) == ("group", "groups/gust.json")
+    assert (data["inputs"], data["outputs"]) == (["particles"], ["particles"])
+    assert data["parameters"]["start"]["default"] == [-10, 3, 0]
+    assert check(document_of(data["sample"]), LIBRARY) == []
 
 
 @pytest.mark.parametrize("name", VALUE_KEYS)

@@ -23,7 +23,7 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     With NAME: what it does, its parameters with units and ranges, and a graph that runs. A word that is no
     node type finds those whose text has it.
     """
-    from graphfx.cli.group_docs import describe_group, group_lines, group_texts, groups_of
+    from graphfx.cli.group_docs import describe_group, group_data, group_lines, group_texts, groups_of
     from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table, texts_of
     from graphfx.cli.value_docs import describe_value, value_lines, value_texts
     from graphfx.graph.names import VALUE_KEYS
@@ -35,8 +35,8 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
         return
     types, problems = load_all(nodes)
     groups = groups_of(nodes)
-    if name is not None and name in groups and not as_json:
-        click.echo(describe_group(groups[name], nodes))
+    if name is not None and name in groups:
+        click.echo(json.dumps(group_data(groups[name]), indent=2) if as_json else describe_group(groups[name], nodes))
         return
     if name in VALUE_KEYS and not as_json:
         click.echo(describe_value(str(name), nodes))
