@@ -126,15 +126,17 @@ def skin_near(point: Any) -> Any:
 
 
 def meets_plane(start: Any, end: Any, point: Any, normal: Any, thickness: Any) -> Any:
-    """(met, passing, facing): whether a segment comes into the skin of a two-sided plane, and the place that tells where.
+    """(met, passing, level, facing): whether a segment comes into the skin of a two-sided plane, and where.
 
     `passing` is where it goes through the plane, or ends if it ends in the skin; `facing` the normal to the side of the
-    start. What starts nearer than half a skin counts as in front of the plane.
+    start, and `level` the height at which it stops: one skin, or that of a start inside the skin. A start nearer than
+    an eighth of a skin counts as in front of the plane.
     """
     before, after = dot(normal, start - point), dot(normal, end - point)
-    behind = before < thickness * -0.5
+    behind = before < thickness * -0.125
     before, after = where(behind, -before, before), where(behind, -after, after)
     met = (after < thickness) & (after < before)
     through = where(before > 0.0, before / (before - after), before * 0.0)
     share = where(after >= 0.0, before * 0.0 + 1.0, through)
-    return met, start + (end - start) * share, where(behind, -normal, normal)
+    level = minimum(maximum(before, 0.0), thickness)
+    return met, start + (end - start) * share, level, where(behind, -normal, normal)

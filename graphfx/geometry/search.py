@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.geometry.tables import BOXES, LEAVES, LINKS, SCALE
+from graphfx.geometry.access import skin_near
+from graphfx.geometry.tables import BOXES, LEAVES, SCALE
 from graphfx.math import Vec3, absolute, cross, dot, maximum, minimum, where
 from graphfx.math.tables import entry, link
 
@@ -39,15 +40,21 @@ def skin_of(mesh: Any) -> Any:
     return entry(mesh, SCALE, 0, 0)
 
 
-def box_apart(mesh: Any, node: int, middle: Any, half: Any, size: Any) -> Any:
+def slack_of(mesh: Any, start: Any, end: Any) -> Any:
+    """What rounding may hide along a segment, many times over: a skin of its own coordinates, or of the mesh [m]."""
+    return maximum(skin_of(mesh), maximum(skin_near(start), skin_near(end)))
+
+
+def box_apart(mesh: Any, node: int, middle: Any, half: Any, size: Any, slack: Any) -> Any:
     """Whether a box of the tree and the segment middle +- half lie apart: the box's axes, then those across both.
 
-    `size` holds the absolute values of half. [Gottschalk, Lin and Manocha 1996, OBBTree]
+    `size` holds the absolute values of half; boxes count as wider by `slack`. [Gottschalk, Lin and Manocha 1996, OBBTree]
     """
     x = middle.x - entry(mesh, BOXES, node, 0)
     y = middle.y - entry(mesh, BOXES, node, 1)
     z = middle.z - entry(mesh, BOXES, node, 2)
-    width, height, depth = entry(mesh, BOXES, node, 3), entry(mesh, BOXES, node, 4), entry(mesh, BOXES, node, 5)
+    width, height = entry(mesh, BOXES, node, 3) + slack, entry(mesh, BOXES, node, 4) + slack
+    depth = entry(mesh, BOXES, node, 5) + slack
     if (absolute(x) > width + size.x) | (absolute(y) > height + size.y) | (absolute(z) > depth + size.z):
         return True
     return (
@@ -72,52 +79,58 @@ def over_face(mesh: Any, place: int, point: Any, margin: Any) -> Any:
     return not (beyond_edge(point, b, c, normal, margin) | beyond_edge(point, c, a, normal, margin))
 
 
-def meeting(mesh: Any, place: int, start: Any, end: Any, skin: Any) -> Any:
+def meeting(mesh: Any, place: int, start: Any, end: Any, margin: Any) -> Any:
     """When a segment comes into the skin of a face, as a share of it; 2 if it does not.
 
-    The face has a skin on the side where the segment starts; a start nearer than half a skin counts as in front.
-    What ends inside the skin while going deeper, or passes the face, meets it: the place where it passes (where it
-    ends, if it does not) must lie over the face, with a margin of one skin.
+    The face has a skin on the side where the segment starts; a start nearer than an eighth of a skin counts as in
+    front. What ends inside the skin while going deeper, or passes the face, meets it, if it comes into the skin or
+    leaves it (by passing, or by ending) over the face. Of the two places rounding can bring but one to the wrong side
+    of an edge.
     """
+    skin = skin_of(mesh)
     normal = leaf_normal(mesh, place)
     corner = leaf_corner_a(mesh, place)
     before, after = dot(normal, start - corner), dot(normal, end - corner)
     never = skin * 0.0 + 2.0
-    if before < skin * -0.5:
+    if before < skin * -0.125:
         before, after = -before, -after
     if (after >= skin) | (after >= before):
         return never
+    coming = maximum((before - skin) / (before - after), 0.0)
+    if over_face(mesh, place, start + (end - start) * coming, margin):
+        return coming
     passing = where(after >= 0.0, never * 0.5, where(before > 0.0, before / (before - after), never * 0.0))
-    if not over_face(mesh, place, start + (end - start) * passing, skin):
-        return never
-    return maximum((before - skin) / (before - after), 0.0)
+    return coming if over_face(mesh, place, start + (end - start) * passing, margin) else never
 
 
 def first_meeting(mesh: Any, start: Any, end: Any) -> Any:
     """(met, point, normal): the face that a segment first meets, as a plane one skin off it, facing the start.
 
-    The normal points to the side of the start. Of faces met at once the one nearest to the tree's beginning is taken.
+    The normal points to the side of the start. A start inside the skin has the plane go through it: nothing is pushed
+    about. Of faces met at once the one nearest to the tree's beginning is taken.
     """
     middle, half = (start + end) * 0.5, (end - start) * 0.5
     size = Vec3(absolute(half.x), absolute(half.y), absolute(half.z))
-    skin = skin_of(mesh)
+    skin, slack = skin_of(mesh), slack_of(mesh, start, end)
     earliest = skin * 0.0 + 1.5
     chosen = -1
-    node, count = 0, link(mesh, LINKS, 0, 0)
+    node, count = 0, link(mesh, BOXES, 0, 6)
     while node < count:
-        if box_apart(mesh, node, middle, half, size):
-            node = link(mesh, LINKS, node, 0)
+        if box_apart(mesh, node, middle, half, size, slack):
+            node = link(mesh, BOXES, node, 6)
         else:
-            first = link(mesh, LINKS, node, 1)
-            for place in range(first, first + link(mesh, LINKS, node, 2)):
-                time = meeting(mesh, place, start, end, skin)
+            leaf = link(mesh, BOXES, node, 7)
+            for place in range(leaf >> 3, (leaf >> 3) + (leaf & 7)):
+                time = meeting(mesh, place, start, end, slack * 0.125)
                 if time < earliest:
                     earliest, chosen = time, place
             node += 1
     place = chosen if chosen >= 0 else 0
     normal, corner = leaf_normal(mesh, place), leaf_corner_a(mesh, place)
-    facing = where(dot(normal, start - corner) < skin * -0.5, -normal, normal)
-    return chosen >= 0, corner + facing * skin, facing
+    before = dot(normal, start - corner)
+    facing = where(before < skin * -0.125, -normal, normal)
+    level = minimum(maximum(dot(facing, start - corner), 0.0), skin)
+    return chosen >= 0, corner + facing * level, facing
 
 
 def crosses_ahead(mesh: Any, place: int, position: Any) -> Any:
@@ -145,17 +158,17 @@ def edge_aside(first: Any, second: Any, position: Any) -> Any:
 def is_inside(mesh: Any, position: Any) -> Any:
     """Whether a point is inside a closed mesh: a ray along +x meets an odd number of faces."""
     inside = position.x > position.x
-    node, count = 0, link(mesh, LINKS, 0, 0)
+    node, count = 0, link(mesh, BOXES, 0, 6)
     while node < count:
         if (
             (position.x - entry(mesh, BOXES, node, 0) > entry(mesh, BOXES, node, 3))
             | (absolute(position.y - entry(mesh, BOXES, node, 1)) > entry(mesh, BOXES, node, 4))
             | (absolute(position.z - entry(mesh, BOXES, node, 2)) > entry(mesh, BOXES, node, 5))
         ):
-            node = link(mesh, LINKS, node, 0)
+            node = link(mesh, BOXES, node, 6)
         else:
-            first = link(mesh, LINKS, node, 1)
-            for place in range(first, first + link(mesh, LINKS, node, 2)):
+            leaf = link(mesh, BOXES, node, 7)
+            for place in range(leaf >> 3, (leaf >> 3) + (leaf & 7)):
                 if crosses_ahead(mesh, place, position):
                     inside = not inside
             node += 1
@@ -202,9 +215,9 @@ def box_square(mesh: Any, node: int, position: Any) -> Any:
 def likely_leaf(mesh: Any, position: Any) -> int:
     """The leaf that is reached by always going down to the nearer box."""
     node = 0
-    while link(mesh, LINKS, node, 2) == 0:
+    while link(mesh, BOXES, node, 7) == 0:
         left = node + 1
-        right = link(mesh, LINKS, left, 0)
+        right = link(mesh, BOXES, left, 6)
         node = right if box_square(mesh, right, position) < box_square(mesh, left, position) else left
     return node
 
@@ -214,16 +227,16 @@ def nearest(mesh: Any, position: Any) -> Any:
 
     A first guess keeps the walk short: boxes farther away than what was found are passed over.
     """
-    at = link(mesh, LINKS, likely_leaf(mesh, position), 1)
+    at = link(mesh, BOXES, likely_leaf(mesh, position), 7) >> 3
     found = nearest_on_face(mesh, at, position)
     least = square_between(found, position)
-    node, count = 0, link(mesh, LINKS, 0, 0)
+    node, count = 0, link(mesh, BOXES, 0, 6)
     while node < count:
         if box_square(mesh, node, position) >= least:
-            node = link(mesh, LINKS, node, 0)
+            node = link(mesh, BOXES, node, 6)
         else:
-            first = link(mesh, LINKS, node, 1)
-            for place in range(first, first + link(mesh, LINKS, node, 2)):
+            leaf = link(mesh, BOXES, node, 7)
+            for place in range(leaf >> 3, (leaf >> 3) + (leaf & 7)):
                 point = nearest_on_face(mesh, place, position)
                 square = square_between(point, position)
                 if square < least:

@@ -1,7 +1,7 @@
 """The tables of a mesh on lanes: `graphfx.math.tables` as loads from addresses.
 
-A mesh is the address of a list of int64, three for each table: where it lies, its rows, its columns. Tables of
-reals hold the lanes' own precision, tables of whole numbers int32.
+A mesh is the address of a list of int64, two for each table: where it lies, its rows. Entries are reals of the lanes'
+own precision, or whole numbers of as many bits.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ from graphfx.lanes.types import INT32, INT64, Real, constant, convert
 from graphfx.lanes.types import splat as _splat
 from graphfx.math import tables
 
-FIELDS = 3
-"""Numbers that the list holds for each table: address, rows, columns."""
+FIELDS = 2
+"""Numbers that the list holds for each table: address, rows."""
 
 
 class Tables(types.Type):
@@ -63,7 +63,7 @@ def read_mesh(typing: Any, model: Any, scratch: Any, operands: Any, place: Any, 
 
 def _field(builder: ir.IRBuilder, mesh: ir.Value, table: int, field: int) -> ir.Value:
     pointer = builder.inttoptr(mesh, INT64.as_pointer())
-    return builder.load(builder.gep(pointer, [ir.Constant(INT64, table * FIELDS + field)]))
+    return builder.load(builder.gep(pointer, [ir.Constant(INT64, (table >> 6) * FIELDS + field)]))
 
 
 def _define(function: Any, kinds: tuple[Any, ...], result: Callable[..., types.Type], generate: Callable[..., Any]) -> None:
@@ -83,7 +83,7 @@ def _define(function: Any, kinds: tuple[Any, ...], result: Callable[..., types.T
 def _element(builder: ir.IRBuilder, mesh: ir.Value, sig: Any, index: ir.Value, type_: ir.Type) -> ir.Value:
     """Load entry (index, column) of a table; table and column are the second and fourth arguments, both literals."""
     table, column = sig.args[1].literal_value, sig.args[3].literal_value
-    place = builder.add(builder.mul(index, _field(builder, mesh, table, 2)), ir.Constant(INT64, column))
+    place = builder.add(builder.mul(index, ir.Constant(INT64, table & 63)), ir.Constant(INT64, column))
     base = builder.inttoptr(_field(builder, mesh, table, 0), type_.as_pointer())
     return builder.load(builder.gep(base, [place]))
 
@@ -133,7 +133,9 @@ def _entry(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Val
 
 def _link(context: Any, builder: ir.IRBuilder, sig: Any, values: Any) -> ir.Value:
     index = context.cast(builder, values[2], sig.args[2], types.int64)
-    return builder.sext(_element(builder, values[0], sig, index, INT32), INT64)
+    single = sig.args[0].real.single
+    found = _element(builder, values[0], sig, index, INT32 if single else INT64)
+    return builder.sext(found, INT64) if single else found
 
 
 _LITERAL = types.IntegerLiteral

@@ -33,9 +33,9 @@ def from_above(distance: Any, tolerance: Any) -> Any:
 
 
 @MOTION.function("vec3 vec3 float float float", "vec3")
-def put_above(position: Any, normal: Any, tolerance: Any, time: Any, best: Any) -> Any:
-    """Where a particle is put after its contact: two tolerances above, if this is the first surface that it meets."""
-    return position + normal * where(time <= best, tolerance * 2.0, 0.0)
+def put_above(position: Any, normal: Any, above: Any, time: Any, best: Any) -> Any:
+    """Where a particle is put at its contact, if this is the first surface that it meets; `above` is what `from_above` gives."""
+    return position - normal * where(time <= best, above, 0.0)
 
 
 @MOTION.function("vec3", "vec3")

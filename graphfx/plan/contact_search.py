@@ -130,7 +130,9 @@ class ContactSearch:
         again = inner.call(basic.but_not, doubtful, doubtful, name="again")
         for candidate in candidates:
             if candidate.plane is not None:
-                inner.call(basic.either, again, self._again(inner, candidate, best), into=again)
+                more = self._again(inner, candidate, best)
+                inner.call(basic.either, again, more, into=again)
+                inner.under(builder.mask).call(basic.either, candidate.hit, more, into=candidate.hit)
         inner.call(basic.both, again, again, into=doubtful)
         left = builder.under(doubtful)
         return_to(left, self.state, self.first)
@@ -145,7 +147,8 @@ class ContactSearch:
         concerned = inner.under(inner.call(basic.both, inner.mask, candidate.concerned))
         put = concerned.call(basic.copy_vector, self.state.position, name="put")
         own = concerned.under(concerned.call(basic.both, concerned.mask, candidate.hit))
-        own.call(barrier.put_above, put, candidate.plane.normal, self.tolerance, candidate.time, best, into=put)
+        above = own.call(barrier.from_above, candidate.plane.distance(own, self.state.position)[0], self.tolerance, name="above")
+        own.call(barrier.put_above, put, candidate.plane.normal, above, candidate.time, best, into=put)
         moment = self.moment_of(concerned, best)
         plane = self.barriers.meet(candidate.surface, moment, self.state, concerned, (self.first["position"], put))
         fresh = inner.under(plane.hit)
@@ -154,7 +157,6 @@ class ContactSearch:
         found.plane, found.time = candidate.plane, candidate.time
         limit = fresh.call(basic.copy_number, best, name="limit")
         self.find(found, fresh, limit, best)
-        inner.call(basic.either, candidate.hit, plane.hit, into=candidate.hit)
         return_to(fresh, self.state, self.first)
         self.motion.step(self.moment_of(fresh, best), self.state)
         return plane.hit

@@ -22,7 +22,7 @@ def bounce_disc(
 ) -> tuple[bool, Vec3, Vec3]:
     """Return whether the way meets the disc, a point of the plane where it stops, and the normal to its side."""
     thickness = skin_near(center) + skin(disc_radius)
-    met, passing, facing = meets_plane(start, end, center, normal, thickness)
+    met, passing, level, facing = meets_plane(start, end, center, normal, thickness)
     offset = passing - center
     across = offset - normal * dot(offset, normal)
-    return met & (length(across) <= disc_radius + thickness), center + facing * thickness, facing
+    return met & (length(across) <= disc_radius + thickness), center + facing * level, facing
