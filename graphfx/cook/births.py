@@ -53,20 +53,26 @@ class Births:
         return times[np.argsort(times, kind="stable")]
 
     def _count(self, time: float, frame: int = 0) -> int:
+        """Return how many are made at once; what is no number counts as none."""
         more = self.vertices if time == self.begin else 0
-        return more + int(plain_value(self.plan.node.arguments["count"], time, frame))
+        count = float(plain_value(self.plan.node.arguments["count"], time, frame))
+        if not count > 0:
+            return more
+        self._numbers(0, count, "count")
+        return more + int(count)
 
     def _bursts(self, interval: Interval) -> np.ndarray:
         """Return the times of what is made at once in (start, end]: `count` at begin + n every."""
         every = float(plain_value(self.plan.node.arguments["every"]))
         first, last = interval.start - self.begin, min(interval.end, self.finish) - self.begin
-        if last < 0 or (first >= 0 and every == math.inf):
+        if last < 0 or (first >= 0 and not every < math.inf):
             return np.zeros(0)
-        begin = 0 if first < 0 else math.floor(first / every) + 1
-        end = 0 if every == math.inf else math.floor(last / every)
-        self._numbers(begin, end)
+        begin = 0 if first < 0 else math.floor(first / every)
+        end = math.floor(last / every) + 1 if every < math.inf else 0
+        self._numbers(begin, end, "every")
         times = [self.begin + (n * every if n else 0.0) for n in range(begin, end + 1)]
-        made = [np.full(self._count(time, interval.frame), time) for time in times if interval.start < time <= interval.end]
+        within = [time for time in times if interval.start < time <= min(interval.end, self.finish)]
+        made = [np.full(self._count(time, interval.frame), time) for time in within]
         return np.concatenate(made) if made else np.zeros(0)
 
     def _flow(self, interval: Interval) -> np.ndarray:
@@ -90,9 +96,10 @@ class Births:
         numbers = self._numbers(already, (high - self.begin) * rate)
         return np.clip(self.begin + numbers / rate, interval.start, interval.end)
 
-    def _numbers(self, first: int, made: float) -> np.ndarray:
+    def _numbers(self, first: int, made: float, name: str = "rate") -> np.ndarray:
         """Return the numbers of the births from `first` until the integral of the rate is `made`."""
         if not made - first < MOST:
-            message = f"{made - first:,.0f} particles would be born in one frame, and the limit is {MOST:,}; lower the rate"
-            raise LimitError(Problem(message, self.plan.node.location, f"nodes.{self.plan.path}.rate"))
+            remedy = "make every longer" if name == "every" else f"lower the {name}"
+            message = f"{made - first:,.0f} particles would be born in one frame, and the limit is {MOST:,}; {remedy}"
+            raise LimitError(Problem(message, self.plan.node.location, f"nodes.{self.plan.path}.{name}"))
         return np.arange(first, math.floor(made) + 1)

@@ -46,7 +46,8 @@ def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem |
     rated = "rate" in given.given or not ("count" in given.given or "vertices" in given.references)
     rate = _greatest(given.arguments["rate"]) if rated else 0.0
     every = _greatest(given.arguments["every"])
-    count = rate * min(span, life) + _greatest(given.arguments["count"]) * (1 + min(span, life) // every)
+    bursts = 1 + (min(span, life) // every if every > 0 else 0.0)
+    count = rate * min(span, life) + _greatest(given.arguments["count"]) * bursts
     if count <= limits.particles:
         return None
     bytes_each = sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())

@@ -10,24 +10,28 @@ import numpy as np
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.programs import Programs
-from graphfx.cook.spawns import MOST, Occasion, Spawns
+from graphfx.cook.spawns import Occasion, Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Interval
 from graphfx.motion.events import DIES, HELD, REBORN
 from graphfx.plan.hits import HIT_TYPES
+from graphfx.plan.spawning import SpawnPlan
 
 MOST_TURNS = 10_000
 """Lives and told hits of one particle within a frame."""
-AFTER = 1e-30
-"""A particle that goes on from an event at the very start of a frame does not meet that start again [s]."""
 
 
 @dataclass
 class Ends:
-    """How far rows came in their own time: their fate, when that was, the last hit, in whole blocks."""
+    """How far rows came in their own time: their fate, when that was, how many steps they began, the surface they hit.
+
+    `hit` tells of the last hit, in whole blocks.
+    """
 
     fate: np.ndarray
     ended: np.ndarray
+    begun: np.ndarray
+    surface: np.ndarray
     hit: dict[str, tuple[np.ndarray, ...]] = field(default_factory=dict)
 
 
@@ -45,10 +49,11 @@ class Lives:
 
     def go_on(self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray) -> None:
         """Carry rows from `begin` to the end of the interval, or to their deaths."""
+        begun = np.zeros(len(rows))
         for _ in range(MOST_TURNS):
             if not len(rows):
                 return
-            rows, begin = self._turn(particles, interval, rows, begin)
+            rows, begin, begun = self._turn(particles, interval, rows, begin, begun)
         node = particles.plan.node
         message = (
             f"in frame {interval.frame} particles begin new lives, or hit something, more than {MOST_TURNS:,} times; "
@@ -57,21 +62,22 @@ class Lives:
         raise CookError(Problem(message, node.location, f"nodes.{node.path}"))
 
     def _turn(
-        self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Run to the next event of each row; return the rows that go on after it, and from when."""
+        self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray, begun: np.ndarray
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Run to the next event of each row; return the rows that go on after it, from when, and the steps they began."""
         plan = particles.plan
-        death = particles.death(rows) - interval.start if plan.mortal else np.full(len(rows), np.inf)
-        ends = self._run(particles, interval, rows, begin, np.minimum(death, interval.length))
+        death = np.maximum(particles.death(rows) - interval.start, begin) if plan.mortal else np.full(len(rows), np.inf)
+        ends = self._run(particles, interval, rows, begin, np.minimum(death, interval.length), begun)
         held = ends.fate >= HELD
         dies = (ends.fate == DIES) | (ends.fate == HELD + DIES)
         natural = (ends.fate == 0) & (death <= interval.length)
         reborn = (ends.fate == REBORN) | (ends.fate == HELD + REBORN)
         when = np.where(natural, death, ends.ended)
         if held.any():
-            self._tell_hits(particles, interval, rows[held], when[held], _kept(ends.hit, held))
+            self._tell_hits(particles, interval, rows, when, ends)
         gone = dies | natural | reborn
-        going, then = [rows[ends.fate == HELD]], [np.maximum(when[ends.fate == HELD], AFTER)]
+        kept = ends.fate == HELD
+        going, then, steps = [rows[kept]], [when[kept]], [ends.begun[kept]]
         if gone.any():
             renewed = self._die(particles, interval, rows[gone], when[gone])
             again = reborn | natural
@@ -81,15 +87,23 @@ class Lives:
             particles.note_deaths(rows[over], interval.start + when[over])
             going.append(rows[again])
             then.append(when[again])
-        return np.concatenate(going), np.concatenate(then)
+            steps.append(np.zeros(np.count_nonzero(again)))
+        return np.concatenate(going), np.concatenate(then), np.concatenate(steps)
 
     def _run(
-        self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray, end: np.ndarray
+        self,
+        particles: Particles,
+        interval: Interval,
+        rows: np.ndarray,
+        begin: np.ndarray,
+        end: np.ndarray,
+        begun: np.ndarray,
     ) -> Ends:
-        """Run the program of one's own time from `begin` to `end`."""
+        """Run the program of one's own time from `begin` to `end`; `begun` of the frame's steps were begun before."""
         made, real, count = particles.plan.own, self.programs.real, len(rows)
+        unmoved = Ends(np.zeros(count), end, begun, np.full(count, -1.0))
         if made is None:
-            return Ends(np.zeros(count), end)
+            return unmoved
         zeros = padded(np.zeros(count), real)
         by_place: dict[str, Any] = {
             "begin": (padded(begin, real),),
@@ -97,6 +111,8 @@ class Lives:
             "unfinished": (padded(np.zeros(count), np.uint8),),
             "fate": (zeros.copy(),),
             "ended": (zeros.copy(),),
+            "begun": (padded(begun, real),),
+            "surface": (zeros.copy(),),
         }
         for name, type_ in HIT_TYPES.items():
             by_place[f"hit.{name}"] = tuple(zeros.copy() for _ in range(3 if type_ == "vec3" else 1))
@@ -106,15 +122,21 @@ class Lives:
         if "unfinished" in by_place:
             particles.unfinished += int(by_place["unfinished"][0][:count].sum())
         if "fate" not in by_place:
-            return Ends(np.zeros(count), end)
+            return unmoved
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
-        return Ends(by_place["fate"][0][:count].astype(np.float64), by_place["ended"][0][:count].astype(np.float64), hit)
+        told = (by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface"))
+        return Ends(*told, hit)
 
-    def _tell_hits(
-        self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray, hit: dict[str, Any]
-    ) -> None:
-        numbers = particles.gathered("hits", rows, np.float64)[0][: len(rows)]
-        self.spawns.at("hit", particles, interval, Occasion(rows, when, numbers, hit))
+    def _tell_hits(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray, ends: Ends) -> None:
+        """Tell each spawn of the hits of the surfaces to which it listens."""
+        for spawn in particles.plan.spawns:
+            if spawn.moment != "hit":
+                continue
+            heard = (ends.fate >= HELD) & np.isin(ends.surface, spawn.surfaces)
+            if heard.any():
+                numbers = particles.gathered("hits", rows[heard], np.float64)[0][: np.count_nonzero(heard)]
+                occasion = Occasion(rows[heard], when[heard], numbers, _kept(ends.hit, heard))
+                self.spawns.make(spawn, particles, interval, occasion)
 
     def _die(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray) -> np.ndarray:
         """Do what is done at deaths; return which of the rows begin another life if they died of age."""
@@ -132,40 +154,54 @@ class Lives:
         if len(rows):
             self.nursery.renew(particles, rows, interval.start + when, interval)
             self.begin(particles, interval, rows, when)
+            self.leave_trails(particles, interval, rows, when)
 
-    def leave_trails(self, particles: Particles, interval: Interval, before: int, begin: np.ndarray) -> None:
-        """Make children along the paths of all rows; those from `before` on begin within the interval.
+    def leave_trails(self, particles: Particles, interval: Interval, rows: np.ndarray, since: np.ndarray) -> None:
+        """Make children along the paths of rows, from the times `since` on to the end of the interval or of their lives.
 
         A child's parent is carried to the instant of its birth on a copy, so its path may bend and bounce.
         """
         for spawn in particles.plan.spawns:
             if spawn.rate is None:
                 continue
-            count = particles.store.count
-            since = np.concatenate([np.zeros(before), begin])
-            until = np.full(count, interval.length)
+            real = self.programs.real
+            until = np.full(len(rows), interval.length)
             if particles.plan.mortal:
-                until = np.minimum(until, particles.death() - interval.start)
-            rate = padded(np.zeros(count), self.programs.real)
-            given: dict[str, Any] = {"begin": (padded(since, self.programs.real),), "rate": (rate,)}
+                until = np.clip(particles.death(rows) - interval.start, since, until)
+            rate = padded(np.zeros(len(rows)), real)
+            given: dict[str, Any] = {"begin": (padded(since, real),), "rate": (rate,)}
             given = {name: arrays for name, arrays in given.items() if name in spawn.rate.program.loads or name == "rate"}
-            self.programs.run(spawn.rate, particles, interval, np.arange(count), by_place=given)
-            self._leave(spawn, particles, interval, since, until, rate[:count].astype(np.float64))
+            self.programs.run(spawn.rate, particles, interval, rows, by_place=given)
+            steady = np.where(rate > 0, rate, 0.0)[: len(rows)].astype(np.float64)
+            self._leave(spawn, particles, interval, rows, since, until, steady)
 
-    def _leave(self, spawn: Any, particles: Particles, interval: Interval, since: Any, until: Any, rate: np.ndarray) -> None:
+    def _leave(
+        self,
+        spawn: SpawnPlan,
+        particles: Particles,
+        interval: Interval,
+        rows: np.ndarray,
+        since: np.ndarray,
+        until: np.ndarray,
+        rate: np.ndarray,
+    ) -> None:
+        """Make the children of a trail; the k-th of a parent is born where the integral of its rate passes k."""
         store = particles.store
-        made = store.column(f"made {spawn.path}")[0]
-        done = made.copy()
-        made += np.nan_to_num(rate, nan=0.0, posinf=float(MOST)) * np.maximum(until - since, 0.0)
-        births = np.floor(made) - np.floor(done)
-        self.spawns.refuse(spawn, float(births.sum()))
-        counts = births.astype(np.int64)
-        parents = np.repeat(np.arange(store.count), counts)
-        if not len(parents):
-            return
+        done = store.column(f"made {spawn.path}")[0][rows]
+        with np.errstate(invalid="ignore"):
+            made = done + np.where(until > since, rate * (until - since), 0.0)
+        self.spawns.refuse(spawn, float(np.sum(made - done)))
+        store.column(f"made {spawn.path}")[0][rows] = made
+        counts = (np.floor(made) - np.floor(done)).astype(np.int64)
+        parents = np.repeat(np.arange(len(rows)), counts)
         number = np.arange(len(parents)) - np.repeat(np.cumsum(counts) - counts, counts) + 1 + np.floor(done)[parents]
         when = np.clip(since[parents] + (number - done[parents]) / rate[parents], since[parents], until[parents])
-        added = store.duplicate(parents)
+        begin, end = spawn.node.during or (-np.inf, np.inf)
+        within = (interval.start + when >= begin) & (interval.start + when < end)
+        parents, number, when = parents[within], number[within], when[within]
+        if not len(parents):
+            return
+        added = store.duplicate(rows[parents])
         copies = np.arange(added.start, added.stop)
         alive = self._carry_copies(particles, interval, copies, since[parents], when)
         self.spawns.make(spawn, particles, interval, Occasion(copies[alive], when[alive], number[alive], {}))
@@ -175,29 +211,30 @@ class Lives:
     def _carry_copies(self, particles: Particles, interval: Interval, rows: Any, begin: Any, end: np.ndarray) -> np.ndarray:
         """Carry copies of particles to instants; return which are still in the same life then."""
         alive, going = np.ones(len(rows), bool), np.arange(len(rows))
-        unfinished = particles.unfinished
+        begin, begun, unfinished = begin.copy(), np.zeros(len(rows)), particles.unfinished
         for _ in range(MOST_TURNS):
             if not len(going):
                 break
-            ends = self._run(particles, interval, rows[going], begin[going], end[going])
+            ends = self._run(particles, interval, rows[going], begin[going], end[going], begun[going])
             alive[going[(ends.fate > 0) & (ends.fate != HELD)]] = False
-            begin = begin.copy()
-            begin[going] = np.maximum(ends.ended, AFTER)
+            begin[going], begun[going] = ends.ended, ends.begun
             going = going[ends.fate == HELD]
         particles.unfinished = unfinished
+        if particles.plan.mortal:
+            alive &= particles.death(rows) >= interval.start + end
         return alive
 
-    def close(self, particles: Particles, interval: Interval) -> None:
-        """Do what is set as a frame ends, and end the lives of those who are killed then."""
+    def close(self, particles: Particles, interval: Interval, first: int = 0) -> None:
+        """Do what is set as a frame ends, on rows from `first` on, and end the lives of those who are killed then."""
         made = particles.plan.closing
         assert made is not None
-        count = particles.store.count
+        rows = np.arange(first, particles.store.count)
         kills = "fate" in made.program.stores
-        fate = padded(np.zeros(count), self.programs.real)
-        rows = np.arange(count)
-        self.programs.run(made, particles, interval, rows if kills else None, by_place={"fate": (fate,)} if kills else None)
+        fate = padded(np.zeros(len(rows)), self.programs.real)
+        listed = rows if kills or first else None
+        self.programs.run(made, particles, interval, listed, by_place={"fate": (fate,)} if kills else None)
         if kills:
-            ended = np.flatnonzero((fate[:count] > 0) & ~flagged(particles.dying, count))
+            ended = rows[(fate[: len(rows)] > 0) & ~flagged(particles.dying, particles.store.count)[first:]]
             when = np.full(len(ended), interval.length)
             self._die(particles, interval, ended, when)
             particles.note_deaths(ended, interval.start + when)

@@ -10,12 +10,13 @@ import numpy as np
 from graphfx.cook.particles import NO_ROWS, Arrivals, Particles, padded
 from graphfx.cook.programs import Programs
 from graphfx.lanes.compile import compiled
+from graphfx.math.random import key_of
 from graphfx.motion.clock import Interval
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.store.threads import parallel
 
 SEED_ID = 1 << 62
-"""Seeds of clusters draw as particles of these ids, which none has."""
+"""Seeds of clusters draw as particles of ids from here on, which none has; those of each cluster as others."""
 PIECE = 4096
 
 
@@ -49,8 +50,9 @@ class Nursery:
     def renew(self, particles: Particles, rows: np.ndarray, times: np.ndarray, interval: Interval) -> None:
         """Begin another life of particles."""
         store = particles.store
-        if "resting" in store.columns:
-            store.arrays("resting")[0][rows] = 0
+        for name in ("resting", *(f"made {spawn.path}" for spawn in particles.plan.spawns)):
+            if name in store.columns:
+                store.arrays(name)[0][rows] = 0
         lives = particles.gathered("lives", rows, self.programs.real)[0]
         given: dict[str, tuple[np.ndarray, ...]] = {"number lives": (lives + self.programs.real(1),)}
         given |= {
@@ -107,7 +109,7 @@ class Nursery:
         if name not in particles.seeds:
             many, real = cluster.count, self.programs.real
             given = {
-                "birth_id": (padded(np.arange(many, dtype=np.uint64) + np.uint64(SEED_ID), np.uint64),),
+                "birth_id": (padded(np.arange(many, dtype=np.uint64) + np.uint64(SEED_ID + (key_of(name)[0] << 28)), np.uint64),),
                 "birth_time": (padded(np.full(many, interval.start), real),),
                 "number lives": (padded(np.zeros(many), real),),
             }

@@ -41,7 +41,7 @@ class Simulation:
             columns = {name: Column(type_) for name, type_ in emitter.attributes.columns.items()}
             store = ProcessorSet(columns, plan.precision, limit_particles, threads)
             self.particles[path] = Particles(emitter, store, self._births(emitter, meshes))
-        self.interval = Interval(self.clock.start, self.clock.start, self.clock.first)
+        self.interval = Interval(self.clock.start, self.clock.start, self.clock.beginning)
         """The time that was simulated last."""
         self.nursery = Nursery(self.programs)
         self.spawns = Spawns(self.programs, self.particles, limit_particles)
@@ -76,26 +76,32 @@ class Simulation:
 
     def _settle(self, interval: Interval) -> None:
         """Let arrive what was spawned, until there is no more; then do what is done as the frame ends."""
+        closed, maker = dict.fromkeys(self.particles, 0), ""
         for _ in range(MOST_ROUNDS):
             waiting = [particles for particles in self.particles.values() if particles.arrivals]
-            if not waiting:
-                break
+            maker = waiting[0].arrivals[0].maker if waiting else maker
             for particles in waiting:
                 self._arrive(particles, interval)
-        else:
-            node = self.plan.flat.nodes[waiting[0].arrivals[0].maker]
-            message = (
-                f"in frame {interval.frame} spawns follow one another without end; it was stopped after {MOST_ROUNDS:,} rounds; "
-                "lower its generations, or its probability"
-            )
-            raise CookError(Problem(message, node.location, f"nodes.{node.path}"))
-        for particles in self.particles.values():
-            self._close(particles, interval)
+            if waiting:
+                continue
+            unclosed = [path for path, particles in self.particles.items() if particles.store.count > closed[path]]
+            for path in unclosed:
+                first, closed[path] = closed[path], self.particles[path].store.count
+                self._close(self.particles[path], interval, first)
+            if not unclosed:
+                return
+        node = self.plan.flat.nodes[maker]
+        message = (
+            f"in frame {interval.frame} spawns follow one another without end; it was stopped after {MOST_ROUNDS:,} rounds; "
+            "lower its generations, or its probability"
+        )
+        raise CookError(Problem(message, node.location, f"nodes.{node.path}"))
 
     def _arrive(self, particles: Particles, interval: Interval) -> None:
         rows, begin = self.nursery.receive(particles, interval)
         if len(rows):
             self.lives.begin(particles, interval, rows, begin)
+            self.lives.leave_trails(particles, interval, rows, begin)
             self.lives.go_on(particles, interval, rows, begin)
 
     def _advance(self, particles: Particles, interval: Interval) -> None:
@@ -110,7 +116,8 @@ class Simulation:
         arrived, arrived_begin = self.nursery.receive(particles, interval)
         self.lives.begin(particles, interval, arrived, arrived_begin)
         dying = np.flatnonzero(particles.death(slice(before)) <= interval.end) if plan.mortal else NO_ROWS
-        self.lives.leave_trails(particles, interval, before, np.concatenate([begin, arrived_begin]))
+        since = np.concatenate([np.zeros(before), begin, arrived_begin])
+        self.lives.leave_trails(particles, interval, np.arange(particles.store.count), since)
         rejected = NO_ROWS
         if plan.main is not None:
             if interval.length * self.clock.fps > 1 - 1e-9:
@@ -124,12 +131,13 @@ class Simulation:
         rows = np.concatenate([old, born, arrived])
         self.lives.go_on(particles, interval, rows, np.concatenate([np.zeros(len(old)), begin, arrived_begin]))
 
-    def _close(self, particles: Particles, interval: Interval) -> None:
-        """Do what is done as the frame ends: tails where the shutter opens, what is set, who is killed."""
+    def _close(self, particles: Particles, interval: Interval, first: int) -> None:
+        """Do what is done with rows from `first` on as the frame ends: tails, what is set, who is killed."""
         plan = particles.plan
         if plan.tails is not None:
+            rows = np.arange(first, particles.store.count)
             if plan.main is None or "tail" not in plan.main.program.stores:
-                particles.put_tails(np.arange(particles.store.count))
-            self.programs.run(plan.tails, particles, interval)
+                particles.put_tails(rows)
+            self.programs.run(plan.tails, particles, interval, rows if first else None)
         if plan.closing is not None:
-            self.lives.close(particles, interval)
+            self.lives.close(particles, interval, first)

@@ -76,7 +76,7 @@ class Spawns:
             self._send(spawn, parents, interval, occasion, counts)
 
     def _counts(self, spawn: SpawnPlan, offspring: np.ndarray, parents: Particles, rows: np.ndarray) -> np.ndarray:
-        """Return how many children each parent has; raise LimitError where they would not fit."""
+        """Return how many children each parent has."""
         offspring = np.nan_to_num(offspring, nan=0.0, posinf=float(MOST))
         if np.isfinite(spawn.generations):
             offspring[self._generation(parents, rows) + 1 > spawn.generations] = 0.0
@@ -84,7 +84,7 @@ class Spawns:
         return offspring.astype(np.int64)
 
     def refuse(self, spawn: SpawnPlan, made: float) -> None:
-        """Raise LimitError where so many children would not fit."""
+        """Raise LimitError where so many more children of a spawn would not fit."""
         home = self.particles[spawn.home]
         waiting = sum(len(arrivals.times) for arrivals in home.arrivals)
         total, limit = home.store.count + waiting + made, min(self.limit or MOST, MOST)
@@ -92,8 +92,8 @@ class Spawns:
         if total > limit or needed > memory() / 2:
             what = f"the limit is {limit:,}" if total > limit else f"{needed / 2**30:,.0f} GiB would be needed"
             message = (
-                f"{total:,.0f} particles would be alive at once, and {what}; lower its count, its rate, its probability or "
-                "its generations" + (", or allow more with --limit-particles" if total > limit else "")
+                f"{total:,.0f} particles would be alive at once, and {what}; lower its count, its rate, its probability or its "
+                "generations" + (", or allow more with --limit-particles" if total > limit else "")
             )
             raise LimitError(Problem(message, spawn.node.location, f"nodes.{spawn.path}"))
 
@@ -114,7 +114,7 @@ class Spawns:
             if "lives" in parents.store.columns
             else np.zeros(len(rows), np.uint64)
         )
-        low, high = key_of(spawn.path)
+        low, high = key_of(spawn.parents, spawn.node.seed)
         own = ids ^ np.uint64(low | high << 32)
         events = occasion.numbers[places].astype(np.uint64)
         times = interval.start + occasion.begin[places]
@@ -122,8 +122,10 @@ class Spawns:
         for name in home.plan.births[spawn.path].program.loads:
             if name.startswith("hit."):
                 given[name] = tuple(padded(array[places], array.dtype) for array in occasion.hit[name])
-            elif name.startswith("parent.") or name.startswith("number "):
-                given[name] = self._of_parent(name.partition(".")[2] or name[7:], parents, rows, times)
+            elif name.startswith("parent."):
+                given[name] = self._of_parent(name[7:], parents, rows, times)
+            elif name.startswith("number ") and name[7:] in parents.store.columns and name != "number lives":
+                given[name] = parents.gathered(name[7:], rows, self.programs.real)
         made = np.asarray(spawned_id(own, lives, events, copies.astype(np.uint64)), np.uint64)
         home.arrivals.append(Arrivals(spawn.path, times, made, given, (ids, copies)))
 
@@ -133,6 +135,4 @@ class Spawns:
             age = times - parents.store.column("birth")[0][rows]
             share = 1.0 if name == "age" else parents.gathered("life", rows, np.float64)[0][: len(rows)]
             return (padded(age / share, real),)
-        if name == "lives" or (name not in parents.store.columns and name not in parents.plan.constants):
-            return (padded(np.zeros(len(rows)), real),)
         return parents.gathered(name, rows, real)

@@ -50,9 +50,14 @@ class Clock:
         """Return when the simulation begins [s]."""
         return -float(self._before)
 
+    @property
+    def beginning(self) -> int:
+        """Return the number of the frame at which the simulation begins, or of the last before that."""
+        return self.first - math.ceil(self._before * self._rate)
+
     def intervals(self, last: int) -> Iterator[Interval]:
         """Yield the intervals from the start up to frame `last`."""
-        frame = self.first - math.ceil(self._before * self._rate) + 1
+        frame = self.beginning + 1
         start = self.start
         while frame <= last:
             end = self.time_of(frame)

@@ -89,11 +89,17 @@ def held(fate: Any) -> Any:
 
 @EVENTS.function("float", "float")
 def renewed(fate: Any) -> Any:
-    """The fate of a particle that begins another life: REBORN."""
-    return where(fate == 0.0, fate * 0.0 + 2.0, fate)
+    """The fate of a particle that begins another life: REBORN, or HELD + REBORN; what has ended does not."""
+    return where((fate == 0.0) | (fate == 3.0), fate + 2.0, fate)
 
 
 @EVENTS.function("float", "float")
 def at_least_nothing(rate: Any) -> Any:
     """max(rate, 0)."""
     return where(rate > 0.0, rate, rate * 0.0)
+
+
+@EVENTS.function("vec3 vec3", "bool")
+def differs(before: Any, after: Any) -> Any:
+    """before != after, in any coordinate."""
+    return (before.x != after.x) | (before.y != after.y) | (before.z != after.z)

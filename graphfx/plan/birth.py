@@ -40,7 +40,8 @@ class BirthWriter:
         self.found = {name: Uniform("0", "float", 0.0) for name in DERIVED_ATTRIBUTES}
         stored = [name for name in self.attributes.types if name in self.holder.table] if wanted is None else wanted
         values = self._writer()
-        for name in self.holder.birth_order([*stored, *self._originals()] if wanted is None else stored, maker):
+        others = [*self._originals(), *(name[5:] for name in self._tails())] if wanted is None else []
+        for name in self.holder.birth_order([*stored, *others], maker):
             self.builder.note = f"{maker.path}.{name}"
             if name == "lives" and name in self.found:
                 continue
@@ -61,8 +62,14 @@ class BirthWriter:
     def _originals(self) -> list[str]:
         return [name[6:] for name in self.attributes.types if name.startswith("birth.")]
 
+    def _tails(self) -> list[str]:
+        """Return what is stored of tails alone: it is as at the head until it is set."""
+        return [name for name in self.attributes.types if name.startswith("tail.")]
+
     def _store_originals(self) -> None:
-        """Store the values at birth of what changes later, and the numbers in clusters."""
+        """Store the values at birth of what changes later, those of tails, and the numbers in clusters."""
+        for name in self._tails():
+            self.builder.store(name, as_column(self.builder, self.found.get(name, self.found[name[5:]]), self._lane(name), name))
         for name in self._originals():
             self.builder.store(f"birth.{name}", as_column(self.builder, self.found[name], self._lane(name), f"birth.{name}"))
         for name in self.holder.clusters:
@@ -71,7 +78,7 @@ class BirthWriter:
                 self.builder.store(name, copy)
 
     def _lane(self, name: str) -> str:
-        return COLUMN_TYPES.get(self.holder.table[name].type, "vec3")
+        return COLUMN_TYPES.get(self.holder.table[name.removeprefix("tail.")].type, "vec3")
 
     def _operand(self, name: str) -> Operand:
         """Return what a name means at birth."""
@@ -129,6 +136,7 @@ class BirthWriter:
                 continue
             setting = Setting(node, self._writer, self.builder, self.found.__getitem__)
             for name in setting.targets(self.attributes.types):
-                self.found[name] = as_column(self.builder, self.found[name], self._lane(name), name, always=True)
+                now = self.found.get(name) or self.found[name.removeprefix("tail.")]
+                self.found[name] = as_column(self.builder, now, self._lane(name), name, always=True)
             setting.write(self.attributes.types)
 

@@ -59,6 +59,8 @@ class Contacts:
                 distance, normal = distance_of(self.motion, surface, moment, state)
                 inside = concerned.call(contact.is_inside, distance, name="inside")
             if self.motion.method == "sims" and not (self.hits.ends and self.fate is None):
+                if self.fate is not None:
+                    inside = builder.call(basic.both, inside, builder.call(events.is_going_on, self.fate.fate), name="inside")
                 self._sims_bounce(surface, builder.under(inside), moment, state, distance, normal)
                 continue
             event = inside if event is None else builder.call(basic.either, event, inside, name="event")
@@ -126,19 +128,33 @@ class Contacts:
         fade(builder, best)
         slides = builder.call(basic.but_not, met, met, name="slides")
         for candidate in candidates:
-            hit = candidate.hit
-            first_met = builder.under(hit).call(basic.is_equal, candidate.time, best)
-            chosen = builder.call(basic.both, hit, first_met, name="chosen")
+            chosen = self._chosen(builder, candidate, best)
             slid = self._answer(candidate, builder.under(chosen), moment_of, state, best, resting, search.tolerance)
             slides = builder.call(basic.either, slides, slid)
         stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, step), name="stuck")
-        self._slide(builder.under(stuck), moment_of, state, step, best, search.tolerance)
+        self._slide(builder.under(stuck), moment_of, state, step, best, search.tolerance, fade)
         inner.call(basic.copy_number, best, into=step)
 
+    def _chosen(self, builder: Builder, candidate: Candidate, best: Column) -> Column:
+        """Return who meets a surface at the time `best`; who was held or ended by one before meets it next, or never."""
+        first = builder.under(candidate.hit).call(basic.is_equal, candidate.time, best)
+        chosen: Column = builder.call(basic.both, candidate.hit, first, name="chosen")
+        if self.fate is not None:
+            chosen = builder.call(basic.both, chosen, builder.call(events.is_going_on, self.fate.fate), name="chosen")
+        return chosen
+
     def _slide(
-        self, builder: Builder, moment_of: MomentOf, state: State, step: Column, used: Column, tolerance: Column
+        self,
+        builder: Builder,
+        moment_of: MomentOf,
+        state: State,
+        step: Column,
+        used: Column,
+        tolerance: Column,
+        fade: Callable[[Builder, Column], None],
     ) -> None:
         """Write a whole step along the surfaces, for particles that are pressed on one and cannot leave."""
+        fade(builder, builder.call(basic.difference, step, used, name="left"))
         builder.call(basic.copy_number, step, into=used)
         moment = moment_of(builder, step)
         begin = builder.call(basic.copy_vector, state.position, name="slide from") if self.barriers.surfaces else None

@@ -12,7 +12,7 @@ from graphfx.plan.liveness import Attributes
 from graphfx.plan.motion import Mover
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.values import ValueWriter
-from graphfx.program import Builder, Column, Operand
+from graphfx.program import Builder, Column, Operand, Uniform
 
 HIT_TYPES = {"normal": "vec3", "point": "vec3", "speed": "float"}
 """What is told of a hit, as hit.normal and so on."""
@@ -20,9 +20,14 @@ HIT_TYPES = {"normal": "vec3", "point": "vec3", "speed": "float"}
 
 @dataclass
 class Fate:
-    """Columns that say what became of a particle in its own time; the last hit is told only where somebody listens."""
+    """Columns that say what became of a particle in its own time; the last hit is told only where somebody listens.
+
+    `surface` is the number of the surface that was hit, -1 where none was; `begun` counts the steps whose start it met.
+    """
 
     fate: Column
+    surface: Column
+    begun: Column
     hit: dict[str, Column] = field(default_factory=dict)
 
 
@@ -48,11 +53,13 @@ class Hits:
         self.listeners = [node for node in holder.spawns if moment_of(node) == "hit"]
         self.deadly = {node.path for node in holder.of_role("surface") if response_of(node) == "die"}
         self.counted = "hits" in attributes.columns
+        self.numbers = {node.path: number for number, node in enumerate(holder.of_role("surface"))}
+        self.vital = [node for node in self.settings if is_vital(node, attributes)]
 
     @property
     def ends(self) -> bool:
         """Return whether a hit may end or hold a particle."""
-        return bool(self.endings or self.listeners or self.deadly)
+        return bool(self.endings or self.listeners or self.deadly or self.vital)
 
     def concern(self, surface: Mover) -> bool:
         """Return whether anything follows from the hits of a surface."""
@@ -81,24 +88,31 @@ class Hits:
             inside.call(events.one_more, count, into=count)  # type: ignore[arg-type]
         for node in self.settings:
             if _hears(node, hit.surface):
-                Setting(node, lambda: writer_of(inside, told), inside, read).write(self.attributes.columns)
+                Setting(node, lambda: writer_of(inside, told), inside, read, resting=hit.stopped).write(
+                    self.attributes.columns
+                )
         if fate is None:
             return
         for node in self.endings:
             if _hears(node, hit.surface):
                 become = events.ended if node.node_type.role == "kill" else events.renewed
                 under_conditions(node, writer_of(inside, told), inside).call(become, fate.fate, into=fate.fate)
-        for node in self.listeners:
-            if _hears(node, hit.surface):
-                inside.call(events.held, fate.fate, into=fate.fate)
-                for name, column in fate.hit.items():
-                    copy = basic.copy_number if column.type == "float" else basic.copy_vector
-                    inside.call(copy, told[name], into=column)
-                break
+        if any(_hears(node, hit.surface) for node in (*self.listeners, *self.vital)):
+            inside.call(events.held, fate.fate, into=fate.fate)
+            number = self.numbers[hit.surface.node.path]
+            inside.call(basic.copy_number, Uniform(str(number), "float", float(number)), into=fate.surface)
+            for name, column in fate.hit.items():
+                copy = basic.copy_number if column.type == "float" else basic.copy_vector
+                inside.call(copy, told[name], into=column)
 
 
 def _hears(node: FlatNode, surface: Mover) -> bool:
     return not node.surfaces or surface.node.path in node.surfaces
+
+
+def is_vital(node: FlatNode, attributes: Attributes) -> bool:
+    """Return whether what a node sets may bring the end of a life nearer, or put it off."""
+    return "life" in attributes.columns and "life" in (*node.sets, *node.node_type.writes)
 
 
 def response_of(node: FlatNode) -> str:

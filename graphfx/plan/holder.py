@@ -18,6 +18,8 @@ DRAW_SCOPES = ("life", "particle", "hit", "frame", "graph")
 SETTING_ROLES = ("set", "fade", "assign")
 """Roles of operators that give attributes new values."""
 ENDING_ROLES = ("kill", "recycle")
+ALWAYS_INHERITED = ("position", "life", "generation")
+"""What a spawn's children have of their parents, whatever else they inherit: they start where those are."""
 
 
 def names_in(tree: Any) -> set[str]:
@@ -45,6 +47,12 @@ def draws_in(tree: Any) -> bool:
 def _draws(tree: Any) -> bool:
     """Return whether a value draws at all: its numbers are its own maker's."""
     return isinstance(tree, (Random, Node)) or any(map(_draws, children(tree)))
+
+
+def _listed(maker: FlatNode) -> tuple[str, ...] | None:
+    """Return the names of what a spawn's children inherit, None for all."""
+    value = getattr(maker.arguments["inherit"], "value", None)
+    return None if value is None else tuple(value)
 
 
 def moment_of(node: FlatNode) -> str:
@@ -110,6 +118,10 @@ class Holder:
             return maker.arguments["life"]
         if maker.node_type.role == "spawn":
             return self._inherited(maker, attribute, parents)
+        return self._default(attribute)
+
+    @staticmethod
+    def _default(attribute: Attribute) -> Value:
         if attribute.follows:
             return Expression(attribute.type, tree=Name(attribute.follows))
         return Literal(attribute.type, value=attribute.default)
@@ -119,10 +131,9 @@ class Holder:
         name = attribute.name
         if name in ("hits", "lives"):
             return Literal("float", value=0.0)
-        inherit = maker.arguments["inherit"]
-        listed = inherit.value if isinstance(inherit, Literal) else None
-        if listed is not None and name not in (*listed, "generation", "position"):
-            return Literal(attribute.type, value=attribute.default)
+        listed = _listed(maker)
+        if listed is not None and name not in (*listed, *ALWAYS_INHERITED):
+            return self._default(attribute)
         tree: Any = Name(f"parent.{name}")
         if len(parents) == 1 and not parents[0].varies(name):
             same = parents[0].value(name)
@@ -143,6 +154,8 @@ class Holder:
             found.add("lives")
         for adder in self.adders:
             found |= {"generation", *adder.sets, *(["life"] if "life" in adder.given else [])}
+            listed = _listed(adder)
+            found |= set() if listed is None else set(self.table) - {*listed, *ALWAYS_INHERITED}
             if self.homes[adder.path] != [self]:
                 found |= set(self.table)
             if "spread" in adder.given:

@@ -18,7 +18,7 @@ from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
-from graphfx.plan.sources import Sources
+from graphfx.plan.sources import Sources, either
 from graphfx.plan.spawning import SpawnPlan, SpawnWriter
 from graphfx.plan.steps import FrameWriter
 from graphfx.plan.support import MOVING_ROLES, check_names, check_support
@@ -158,7 +158,12 @@ def _image(node: FlatNode, sources: Sources) -> ImagePlan:
     for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
         for top in sources.schedule.kept(source, sources.flat):
             for path, condition in sources.reaching(top).items():
-                if not any(path == drawn.path and (drawn.condition is None or drawn.condition == condition) for drawn in streams):
+                if any(path == drawn.path and drawn.condition is None for drawn in streams):
+                    continue
+                same = [drawn for drawn in streams if drawn.path == path and drawn.looks == dict(look)]
+                for drawn in same:
+                    drawn.condition = either(drawn.condition, condition)
+                if not same:
                     streams.append(Drawn(path, dict(look), condition))
     return ImagePlan(node, sources.flat.nodes[node.references["camera"]], streams)
 
@@ -169,15 +174,31 @@ class _Planner:
     def __init__(self, flat: FlatGraph, images: list[ImagePlan], holders: dict[str, Holder], prune: bool):
         self.flat, self.images, self.holders, self.prune = flat, images, holders, prune
         self.stored: dict[str, list[str]] = {}
-        """What is stored of each source that is planned."""
+        """What is stored of each source, as far as it is known."""
+        self.attributes = self._all_attributes()
+
+    def _drawn(self, path: str) -> tuple[list[Drawn], float]:
+        """Return the streams of images that draw a source's particles, and the longest shutter."""
+        drawn = [(image, each) for image in self.images for each in image.streams if each.path == path]
+        return [each for _, each in drawn], max((float(image.value("shutter")) for image, _ in drawn), default=0.0)
+
+    def _all_attributes(self) -> dict[str, Attributes]:
+        """Find what is stored of each source: all that its children read, which grows until no child needs more."""
+        while True:
+            known = dict(self.stored)
+            found = {}
+            for path in reversed(self.holders):
+                drawn, shutter = self._drawn(path)
+                found[path] = self._attributes(self.holders[path], drawn, shutter > 0)
+            if self.stored == known:
+                return found
 
     def emitter(self, path: str) -> EmitterPlan:
         """Return the plan of one source."""
         flat, holder = self.flat, self.holders[path]
         seed, precision, substeps = flat.seed, flat.time.precision, flat.time.substeps
-        drawn = [(image, each) for image in self.images for each in image.streams if each.path == path]
-        shutter = max((float(image.value("shutter")) for image, _ in drawn), default=0.0)
-        attributes = self._attributes(holder, [each for _, each in drawn], shutter > 0)
+        drawn, shutter = self._drawn(path)
+        attributes = self.attributes[path]
         movers = [mover_of(node, bool(never_acts(node, flat))) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
         method, reason = choose_method(movers, flat, has_velocity)
@@ -190,7 +211,7 @@ class _Planner:
         births = BirthWriter(holder, attributes, seed, precision)
         nearest = any(each.by == "nearest" and self._counted(holder, attributes, name) for name, each in holder.clusters.items())
         spawning = SpawnWriter(path, attributes, constants.find, seed, precision)
-        for _, each in drawn:
+        for each in drawn:
             if each.condition is not None:
                 each.selection = writer.selection(each.condition)
         return EmitterPlan(
@@ -207,7 +228,7 @@ class _Planner:
             writer.closing(opening=True) if blurred else None,
             writer.at_death(),
             births.write(holder.maker, ["position"]) if nearest else None,
-            [spawning.plan(node, self._home(node)) for node in holder.spawns],
+            [spawning.plan(node, self._home(node), [each.path for each in holder.of_role("surface")]) for node in holder.spawns],
         )
 
     @staticmethod
@@ -230,7 +251,7 @@ class _Planner:
         for spawn in holder.spawns:
             home = self.holders[self._home(spawn)]
             maker = next(each for each in (home.maker, *home.adders) if each.path == spawn.path)
-            stored = self.stored.get(home.path) or [*DRAWN, "velocity", "life"]
+            stored = self.stored.get(home.path, [])
             reading.note(reads_of_spawn(home, maker, home.parents_of(maker), stored), spawn.path)
         reading.operators()
         found = find_attributes(reading, motion_blur, self.prune)

@@ -83,7 +83,7 @@ def rate_of(tree: Any, scope: Scope) -> Rate:
 
 def depends_on_time(tree: Any) -> bool:
     """Return whether a value changes while a particle lives: by time, frame, age, or an attribute that moves."""
-    changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per == "frame")
+    changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per in ("frame", "hit"))
     changing |= isinstance(tree, Literal) and tree.type == "mesh"
     reads = (
         isinstance(tree, Node)

@@ -12,6 +12,8 @@ from graphfx.motion import basic, events
 from graphfx.plan.values import ValueWriter, node_function
 from graphfx.program import Builder, Column, Operand, Uniform
 
+MOVED = ("position", "velocity")
+
 
 def as_column(builder: Builder, operand: Operand, type_: str, name: str, always: bool = False) -> Column:
     """Return an operand as a column that can be stored; with `always` as one of its own."""
@@ -27,7 +29,8 @@ class Setting:
     """One such operator at one moment.
 
     `column` finds the column of an attribute; `writer` makes what finds values as they are now, so that each
-    attribute of a `set` may read those that it set before.
+    attribute of a `set` may read those that it set before. A particle at rest that it moves is at rest no more:
+    `resting` says who is.
     """
 
     node: FlatNode
@@ -35,6 +38,7 @@ class Setting:
     builder: Builder
     column: Callable[[str], Any]
     dt: Operand | None = None
+    resting: Column | None = None
 
     def targets(self, live: Collection[str]) -> list[str]:
         """Return the attributes that it gives and that are stored."""
@@ -47,9 +51,19 @@ class Setting:
             return None
         self.builder.note = self.node.path
         inside = under_conditions(self.node, self.writer(), self.builder)
+        moved = [name for name in MOVED if name in names] if self.resting is not None else []
+        before = {name: inside.call(basic.copy_vector, self.column(name), name=f"{name} before") for name in moved}
+        self._give(inside, names, live)
+        for name, old in before.items():
+            differs = inside.call(events.differs, old, self.column(name), name="moved")
+            context = self.builder.under(self.builder.program.context)
+            context.call(basic.but_not, self.resting, differs, into=self.resting)
+        return inside
+
+    def _give(self, inside: Builder, names: list[str], live: Collection[str]) -> None:
         if self.node.node_type.role == "assign":
             self._assign(inside, live)
-            return inside
+            return
         for name in names:
             writer, into = self.writer(), self.column(name)
             value, vector = writer.argument(self.node.sets[name]), into.type == "vec3"
@@ -59,7 +73,6 @@ class Setting:
                 inside.call(function, into, value, rate, self.dt or Uniform("0", "float", 0.0), into=into)
             else:
                 inside.call(basic.copy_vector if vector else basic.copy_number, value, into=into)
-        return inside
 
     def _assign(self, inside: Builder, live: Collection[str]) -> None:
         node_type, writer = self.node.node_type, self.writer()

@@ -54,7 +54,7 @@ class Sources:
         merged: dict[str, Value | None] = {}
         for source in self.schedule.through.get(path, ()):
             for found, condition in self.reaching(source).items():
-                merged[found] = _either(merged[found], condition) if found in merged else condition
+                merged[found] = either(merged[found], condition) if found in merged else condition
         return merged
 
     def _acting(self, path: str, source: str) -> FlatNode:
@@ -84,7 +84,8 @@ class Sources:
         return list(self.taken(spawn))
 
 
-def _either(first: Value | None, second: Value | None) -> Value | None:
+def either(first: Value | None, second: Value | None) -> Value | None:
+    """Return the condition under which either of two holds; None is always."""
     if first is None or second is None:
         return None
     return Expression("bool", second.location, second.path, second.seed, Call("or", (first, second)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from graphfx.graph.flat import FlatNode
 from graphfx.math.random import key_of
@@ -22,8 +22,9 @@ from graphfx.program import Builder, Operand, Uniform
 class SpawnPlan:
     """A spawn as it acts on the particles of one source.
 
-    `home` is the source that takes the children. `offspring` finds how many children there are at an event;
-    `rate`, for trails, how many a second. `generations` is the greatest that a child may have.
+    `home` is the source that takes the children, `parents` that of the parents. `offspring` finds how many children
+    there are at an event; `rate`, for trails, how many a second. `generations` is the greatest that a child may have,
+    `surfaces` are the numbers of the surfaces whose hits count.
     """
 
     node: FlatNode
@@ -32,6 +33,8 @@ class SpawnPlan:
     offspring: FrameProgram
     rate: FrameProgram | None
     generations: float
+    parents: str = ""
+    surfaces: tuple[int, ...] = ()
 
     @property
     def path(self) -> str:
@@ -49,13 +52,14 @@ class SpawnWriter:
     seed: int
     precision: int
 
-    def plan(self, node: FlatNode, home: str) -> SpawnPlan:
-        """Return a spawn's plan."""
+    def plan(self, node: FlatNode, home: str, surfaces: list[str]) -> SpawnPlan:
+        """Return a spawn's plan; `surfaces` are the paths of all that the parents may hit."""
         moment = moment_of(node)
         limited = "into" in node.references
         generations = float(getattr(node.arguments["generations"], "value", 8)) if limited else float("inf")
         rate = self._rate(node) if moment == "rate" else None
-        return SpawnPlan(node, home, moment, self._offspring(node, moment), rate, generations)
+        heard = tuple(number for number, path in enumerate(surfaces) if not node.surfaces or path in node.surfaces)
+        return SpawnPlan(node, home, moment, self._offspring(node, moment), rate, generations, self.path, heard)
 
     def _begin(self, name: str) -> tuple[Builder, Moments]:
         builder = Builder.begin(name)
@@ -70,7 +74,6 @@ class SpawnWriter:
         if moment == "hit":
             told = {f"hit.{name}": builder.load(f"hit.{name}", type_) for name, type_ in HIT_TYPES.items()}
         writer = moments.at(builder, builder.load("begin", "float"), state, told)
-        writer.scope.emitter = node.path
         result = as_column(builder, Uniform("0", "float", 0.0), "float", "offspring", always=True)
         inside = under_conditions(node, writer, builder)
         count, probability = (writer.argument(node.arguments[name]) for name in ("count", "probability"))
@@ -78,7 +81,7 @@ class SpawnWriter:
         if moment in ("hit", "rate"):
             event = inside.call(events.word_of, builder.load("event", "float"), name="event word")
         life = writer.scope.number("lives")
-        draw = inside.draw(key_of(self.seed, node.path, "offspring"), builder.load("id", "id"), life, event)
+        draw = inside.draw(key_of(self.seed, self.path, node.seed, "offspring"), builder.load("id", "id"), life, event)
         inside.call(events.offspring, count, probability, draw, into=result)
         builder.store("offspring", result)
         return moments.made
@@ -88,9 +91,8 @@ class SpawnWriter:
         builder.note = node.path
         state = moments.state(builder, False)
         writer = moments.at(builder, builder.load("begin", "float"), state)
-        writer.scope.emitter = node.path
         result = as_column(builder, Uniform("0", "float", 0.0), "float", "rate", always=True)
-        inside = under_conditions(node, writer, builder)
+        inside = under_conditions(replace(node, during=None), writer, builder)  # each child's own time decides on that
         rate = writer.argument(node.arguments["rate"])
         inside.call(events.at_least_nothing, rate, into=result)
         builder.store("rate", result)

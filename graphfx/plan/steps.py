@@ -13,14 +13,15 @@ from graphfx.graph.values import Value
 from graphfx.motion import basic, events
 from graphfx.plan.contacts import Contacts
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.hits import HIT_TYPES, Fate, Hits
+from graphfx.plan.hits import HIT_TYPES, Fate, Hits, is_vital
 from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.plan.turns import Turn
+from graphfx.program import Builder, Column, Uniform
 
 MOST_CONTACTS = 100
 """Contacts of one particle in one step; one that has more is reported and rests."""
@@ -50,6 +51,7 @@ class FrameWriter:
         at_steps = [node for node in holder.operators if moment_of(node) == "step"]
         self.settings = [node for node in at_steps if node.node_type.role in ("set", "assign")]
         self.endings = [node for node in at_steps if node.node_type.role in ENDING_ROLES]
+        self.vital = [node for node in self.settings if is_vital(node, attributes)]
         self.fades = [node for node in at_steps if node.node_type.role == "fade"]
 
     @property
@@ -72,13 +74,12 @@ class FrameWriter:
         tail = Column("tail", "vec3")
         if opening_step >= 0 and resting is not None:
             builder.call(basic.copy_vector, state.position, into=tail)
-        active = (
-            builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving")) if resting is not None else builder
-        )
         contacts = Contacts(self.motion, self.precision, self.hits, moments)
         event: Column | None = None
         for k in range(self.substeps):
-            event = self._start(builder, moments, k, state, event)
+            event = self._start(builder, moments, k, state, event, resting)
+            if k == 0 or self.wakes:
+                active = self._moving(builder, resting)
             moment = moments.whole_step(active, k, state)
             if k == 0:
                 self.motion.prepare(moment, state)
@@ -93,16 +94,34 @@ class FrameWriter:
                 opening = [made.time(active, name) for name in (("start", k), ("end", k), "opening")]
                 active.call(basic.capture, before, before, state.position, *opening, into=tail)
         self._store(builder, tail if opening_step >= 0 else None)
+        if resting is not None and self.wakes:
+            builder.store("resting", resting)
         builder.program.rejects = event
         share(made.program)
         return made
 
-    def _start(self, builder: Builder, moments: Moments, k: int, state: State, event: Column | None) -> Column | None:
+    @staticmethod
+    def _moving(builder: Builder, resting: Column | None) -> Builder:
+        """Return the builder for those who are not at rest."""
+        if resting is None:
+            return builder
+        return builder.under(builder.call(basic.but_not, builder.mask, resting, name="moving"))
+
+    @property
+    def wakes(self) -> bool:
+        """Return whether what is set at the start of a step may move particles that are at rest."""
+        return any({"position", "velocity"} & {*node.sets, *node.node_type.writes} for node in self.settings)
+
+    def _start(
+        self, builder: Builder, moments: Moments, k: int, state: State, event: Column | None, resting: Column | None
+    ) -> Column | None:
         """Write what happens at the start of a step: attributes are set, and who ends is noted."""
         for node in self.settings:
-            Setting(node, lambda: moments.fixed(builder, ("start", k), state), builder, state.read).write(
-                self.attributes.columns
-            )
+            fixed = lambda: moments.fixed(builder, ("start", k), state)  # noqa: E731
+            set_for = Setting(node, fixed, builder, state.read, resting=resting).write(self.attributes.columns)
+            if node in self.vital and set_for is not None:
+                whose = builder.call(basic.both, set_for.mask, set_for.mask)
+                event = whose if event is None else builder.call(basic.either, event, whose, name="event")
         for node in self.endings:
             builder.note = node.path
             who = under_conditions(node, moments.fixed(builder, ("start", k), state), builder).mask
@@ -123,7 +142,8 @@ class FrameWriter:
         tail = builder.load("tail", "vec3") if motion_blur else None
         fate = self._fate(builder)
         self.motion.prepare(moments.own_step(builder, 0, now, now, state), state)
-        turn = _Turn(self, moments, state, now, resting, tail, fate)
+        contacts = Contacts(self.motion, self.precision, self.hits, moments, fate)
+        turn = Turn(contacts, self.fade, moments, state, now, resting, tail, fate)
         unfinished: Column | None = None
         for k in range(self.substeps):
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
@@ -135,41 +155,46 @@ class FrameWriter:
             inner.call(basic.both, *[turn.going(inner, finish)] * 2, into=going)
             left = builder.call(basic.both, going, going, name="unfinished")
             unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
+            if self.fades and resting is not None:
+                turn.rest(builder, k, finish)
         if resting is not None and unfinished is not None:
             builder.store("resting", builder.call(basic.either, resting, unfinished))
         self._store(builder, tail)
         made.program.stores |= {"unfinished": unfinished} if unfinished is not None else {}
         if fate is not None:
-            made.program.stores |= {"fate": fate.fate, "ended": now, **fate.hit}
+            made.program.stores |= {"fate": fate.fate, "ended": now, "surface": fate.surface, "begun": fate.begun, **fate.hit}
         share(made.program)
         return made
 
     def _fate(self, builder: Builder) -> Fate | None:
-        if not (self.endings or self.hits.ends):
+        if not (self.endings or self.hits.ends or self.vital):
             return None
         nought = Uniform("0", "float", 0.0)
-        made = Fate(builder.call(basic.copy_number, nought, name="fate"))
+        surface = builder.call(basic.copy_number, Uniform("-1", "float", -1.0), name="surface")
+        made = Fate(builder.call(basic.copy_number, nought, name="fate"), surface, builder.load("begun", "float"))
         if self.hits.listeners:
             zero = {"float": nought, "vec3": Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))}
             copies = {"float": basic.copy_number, "vec3": basic.copy_vector}
             made.hit = {f"hit.{name}": builder.call(copies[t], zero[t], name=f"hit.{name}") for name, t in HIT_TYPES.items()}
         return made
 
-    def _own_start(self, builder: Builder, moments: Moments, k: int, state: State, turn: _Turn, end: Column) -> None:
+    def _own_start(self, builder: Builder, moments: Moments, k: int, state: State, turn: Turn, end: Column) -> None:
         """Write what happens at the start of a step to those who are there."""
         start = moments.made.time(builder, ("start", k))
         here = builder.call(basic.both, builder.call(events.is_by, turn.now, start), builder.call(basic.is_less, start, end))
         if turn.fate is not None:
             here = builder.call(basic.both, here, builder.call(events.is_going_on, turn.fate.fate), name="here")
+            first = builder.call(events.is_by, turn.fate.begun, Uniform(str(k), "float", float(k)), name="first")
+            here = builder.call(basic.both, here, first, name="here")
         inside = builder.under(here)
+        if turn.fate is not None:
+            inside.call(basic.copy_number, Uniform(str(k + 1), "float", float(k + 1)), into=turn.fate.begun)
         for node in self.settings:
-            written = Setting(node, lambda: moments.fixed(inside, ("start", k), state), inside, state.read).write(
-                self.attributes.columns
-            )
-            moved = {"position", "velocity"} & {*node.sets, *node.node_type.writes}
-            if written is not None and turn.resting is not None and moved:
-                context = builder.under(builder.program.context)
-                context.call(basic.but_not, turn.resting, written.mask, into=turn.resting)
+            fixed = lambda: moments.fixed(inside, ("start", k), state)  # noqa: E731
+            written = Setting(node, fixed, inside, state.read, resting=turn.resting).write(self.attributes.columns)
+            if node in self.vital and written is not None and turn.fate is not None:
+                written.call(events.held, turn.fate.fate, into=turn.fate.fate)
+                written.call(basic.copy_number, start, into=turn.now)
         for node in self.endings:
             assert turn.fate is not None
             inside.note = node.path
@@ -201,8 +226,11 @@ class FrameWriter:
         builder, moments = self._begin("tails" if opening else "end of the frame")
         state = moments.state(builder, self.motion.has_velocity, "tail" if opening else "position")
         time = "opening" if opening else "frame end"
+        moved = any({"position", "velocity"} & {*node.sets, *node.node_type.writes} for node in nodes)
+        resting = builder.load("resting", "bool") if moved and not opening and "resting" in live else None
         for node in nodes:
-            Setting(node, lambda: moments.fixed(builder, time, state), builder, state.read).write(live)
+            fixed = lambda: moments.fixed(builder, time, state)  # noqa: E731
+            Setting(node, fixed, builder, state.read, resting=resting).write(live)
         for node in kills:
             fate = builder.program.stores.get("fate") or builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="fate")
             inside = under_conditions(node, moments.fixed(builder, time, state), builder)
@@ -212,6 +240,8 @@ class FrameWriter:
             builder.store("tail", state.position)  # type: ignore[arg-type]
         else:
             self._store(builder, None)
+        if resting is not None:
+            builder.store("resting", resting)
         share(moments.made.program)
         return moments.made
 
@@ -243,55 +273,3 @@ class FrameWriter:
         writer = moments.fixed(builder, "frame end", moments.state(builder, self.motion.has_velocity))
         builder.store("selected", builder.call(basic.both, builder.mask, writer.operand(condition), name="selected"))
         return moments.made
-
-
-class _Turn:
-    """One turn of the loop in own time: go to the end of the step, or to the first contact on the way."""
-
-    def __init__(
-        self,
-        writer: FrameWriter,
-        moments: Moments,
-        state: State,
-        now: Column,
-        resting: Column | None,
-        tail: Column | None,
-        fate: Fate | None,
-    ):
-        self.writer, self.moments, self.state = writer, moments, state
-        self.now, self.resting, self.tail, self.fate = now, resting, tail, fate
-
-    def going(self, builder: Builder, finish: Operand) -> Column:
-        """Write who is not at the end of the step yet."""
-        going: Column = builder.call(basic.is_less, self.now, finish, name="going")
-        if self.resting is not None:
-            going = builder.call(basic.but_not, going, self.resting, name="going")
-        if self.fate is not None:
-            going = builder.call(basic.both, going, builder.call(events.is_going_on, self.fate.fate), name="going")
-        return going
-
-    def write(self, inner: Builder, k: int, finish: Column) -> None:
-        """Write the turn."""
-        moments, state, now, tail = self.moments, self.state, self.now, self.tail
-        step = inner.call(basic.difference, finish, now, name="step")
-        before = inner.call(basic.copy_vector, state.position, name="before") if tail is not None else None
-        then = inner.call(basic.copy_number, now, name="then")
-        contacts = Contacts(self.writer.motion, self.writer.precision, self.writer.hits, moments, self.fate)
-
-        def step_of(builder: Builder, dt: Column) -> Moment:
-            return moments.own_step(builder, k, then, dt, state)
-
-        def fade(builder: Builder, dt: Column) -> None:
-            self.writer.fade(moments.own_step(builder, k, then, dt, state), state)
-
-        contacts.own_step(inner, step_of, state, step, self.resting, fade)
-        inner.call(basic.sum_of_numbers, then, step, into=now)
-        reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
-        inner.under(reached).call(basic.copy_number, finish, into=now)
-        if before is not None and tail is not None:
-            inner.note = "motion blur"
-            opening = moments.made.time(inner, "opening")
-            inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
-
-
-

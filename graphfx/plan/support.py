@@ -107,5 +107,17 @@ def check_names(holders: Mapping[str, Holder]) -> None:
                     if "." not in name:
                         whose = f"the particles of '{holder.path}' have no '{name}'; if it is a cluster, give it to their emitter"
                         problems.append(Problem(whose, value.location or node.location, value.path))
+        problems += _orphans(holder)
     if problems:
         raise GraphError(problems)
+
+
+def _orphans(holder: Holder) -> Iterator[Problem]:
+    """Yield what would recycle particles of a spawn: there is no parent from which they could be born again."""
+    for node in holder.of_role("recycle") if holder.maker.node_type.role == "spawn" else ():
+        yield Problem(
+            f"recycle lets particles be born again as their emitter makes them, and those of the spawn '{holder.path}' "
+            'have no emitter; recycle its parents, or have it add to an emitter with "into"',
+            node.location,
+            f"nodes.{node.path}",
+        )

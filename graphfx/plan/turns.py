@@ -1,0 +1,72 @@
+"""Write one turn of a particle in its own time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from graphfx.motion import basic, events
+from graphfx.plan.contacts import Contacts
+from graphfx.plan.hits import Fate
+from graphfx.plan.moment import Moment, Moments, State
+from graphfx.program import Builder, Column, Operand
+
+
+class Turn:
+    """One turn of the loop in own time: go to the end of the step, or to the first contact on the way."""
+
+    def __init__(
+        self,
+        contacts: Contacts,
+        fade: Callable[[Moment, State], None],
+        moments: Moments,
+        state: State,
+        now: Column,
+        resting: Column | None,
+        tail: Column | None,
+        fate: Fate | None,
+    ):
+        self.moments, self.state = moments, state
+        self.contacts, self.fade = contacts, fade
+        self.now, self.resting, self.tail, self.fate = now, resting, tail, fate
+
+    def going(self, builder: Builder, finish: Operand) -> Column:
+        """Write who is not at the end of the step yet."""
+        going: Column = builder.call(basic.is_less, self.now, finish, name="going")
+        if self.resting is not None:
+            going = builder.call(basic.but_not, going, self.resting, name="going")
+        if self.fate is not None:
+            going = builder.call(basic.both, going, builder.call(events.is_going_on, self.fate.fate), name="going")
+        return going
+
+    def write(self, inner: Builder, k: int, finish: Column) -> None:
+        """Write the turn."""
+        moments, state, now, tail = self.moments, self.state, self.now, self.tail
+        step = inner.call(basic.difference, finish, now, name="step")
+        before = inner.call(basic.copy_vector, state.position, name="before") if tail is not None else None
+        then = inner.call(basic.copy_number, now, name="then")
+        def step_of(builder: Builder, dt: Column) -> Moment:
+            return moments.own_step(builder, k, then, dt, state)
+
+        def fade(builder: Builder, dt: Column) -> None:
+            self.fade(moments.own_step(builder, k, then, dt, state), state)
+
+        self.contacts.own_step(inner, step_of, state, step, self.resting, fade)
+        inner.call(basic.sum_of_numbers, then, step, into=now)
+        reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
+        inner.under(reached).call(basic.copy_number, finish, into=now)
+        if before is not None and tail is not None:
+            inner.note = "motion blur"
+            opening = moments.made.time(inner, "opening")
+            inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
+
+    def rest(self, builder: Builder, k: int, finish: Operand) -> None:
+        """Write what fades on particles that are at rest before the end of the step."""
+        assert self.resting is not None
+        resting = builder.call(basic.both, self.resting, builder.call(basic.is_less, self.now, finish), name="at rest")
+        if self.fate is not None:
+            resting = builder.call(basic.both, resting, builder.call(events.is_going_on, self.fate.fate), name="at rest")
+        inside = builder.under(resting)
+        then = inside.call(basic.copy_number, self.now, name="then")
+        left = inside.call(basic.difference, finish, then, name="left")
+        self.fade(self.moments.own_step(inside, k, then, left, self.state), self.state)
+        inside.call(basic.copy_number, finish, into=self.now)
