@@ -17,7 +17,11 @@ from .effects import effect, graph, particles
 
 RATES = [(24, 1), (10, 2), (7, 1), (60, 1)]
 FALL = {"count": 1, "rate": 0, "set": {"position": [0, 1, 0], "velocity": [1, -2, 0]}}
-MANY = {"rate": 200, "life": {"rand": [0.05, 0.6]}, "set": {"position": {"in_box": {"min": [-1, 0.1, -1]}}, "radius": {"rand": [0, 1]}}}
+MANY = {
+    "rate": 200,
+    "life": {"rand": [0.05, 0.6]},
+    "set": {"position": {"in_box": {"min": [-1, 0.1, -1]}}, "radius": {"rand": [0, 1]}},
+}
 
 
 def document(ops, emit=FALL, fps=24, substeps=1, seconds=1.0, nodes=None, image=None, **time):
@@ -38,8 +42,9 @@ def last(found, source="sky"):
 
 
 @pytest.mark.parametrize("fps, substeps", RATES)
-@pytest.mark.parametrize("ops", [[{"type": "bounce_plane", "response": "die"}],
-                                 [{"type": "bounce_plane"}, {"type": "kill", "when": "hit"}]])
+@pytest.mark.parametrize(
+    "ops", [[{"type": "bounce_plane", "response": "die"}], [{"type": "bounce_plane"}, {"type": "kill", "when": "hit"}]]
+)
 def test_death_at_a_hit_is_at_the_time_of_contact(fps, substeps, ops):
     """A fall of 1 m at 2 m/s ends at 0.5 s."""
     np.testing.assert_allclose(ends(effect(document(ops, fps=fps, substeps=substeps))), [0.5], rtol=0, atol=1e-14)
@@ -66,9 +71,11 @@ def test_kill_at_a_frame_ends_with_it():
 
 def test_what_dies_is_drawn_for_its_share_of_the_shutter():
     """Dying 1/4 of the way through the shutter, or born 1/4 before its end, it is drawn with a quarter of its opacity."""
-    for emit, ops, share in ((FALL, [{"type": "bounce_plane", "response": "die"}], 0.25),
-                             (FALL | {"during": [0.875, 9]}, [{"type": "gravity"}], 0.25),
-                             (FALL | {"during": [0.75, 9], "life": 0.125}, [{"type": "gravity"}], 0.25)):
+    for emit, ops, share in (
+        (FALL, [{"type": "bounce_plane", "response": "die"}], 0.25),
+        (FALL | {"during": [0.875, 9]}, [{"type": "gravity"}], 0.25),
+        (FALL | {"during": [0.75, 9], "life": 0.125}, [{"type": "gravity"}], 0.25),
+    ):
         time = 1.0 if share == 0.25 and "during" in emit else 0.875
         found = effect(graph(ops, emit, {"fps": 1 / time, "frames": [1, 2], "precision": 64}, {"shutter": 1}))
         simulation = found.simulation()
@@ -81,21 +88,28 @@ def test_what_dies_is_drawn_for_its_share_of_the_shutter():
 def test_what_sticks_stays_and_what_slides_goes_on():
     """From the contact at x = 0.5 what sticks stays there, and what slides keeps its 1 m/s along the floor."""
     for response, x in (("stick", 0.5), ("slide", 1.0)):
-        found = last(effect(document([{"type": "gravity", "acceleration": [0, 0, 0]}, {"type": "bounce_plane", "response": response}])))
+        found = last(
+            effect(document([{"type": "gravity", "acceleration": [0, 0, 0]}, {"type": "bounce_plane", "response": response}]))
+        )
         np.testing.assert_allclose(found["position"], [[x, 0, 0]], rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("ops", [
-    [],
-    [{"type": "recycle", "only": {"expr": "radius > 0.5"}}],
-    [{"type": "kill", "when": "frame", "only": {"share": {"fraction": {"expr": "time / 4"}}}}],
-    [{"type": "bounce_plane", "response": "die"}, {"type": "kill", "only": {"expr": "position.y < 0.3"}}],
-])
+@pytest.mark.parametrize(
+    "ops",
+    [
+        [],
+        [{"type": "recycle", "only": {"expr": "radius > 0.5"}}],
+        [{"type": "kill", "when": "frame", "only": {"share": {"fraction": {"expr": "time / 4"}}}}],
+        [{"type": "bounce_plane", "response": "die"}, {"type": "kill", "only": {"expr": "position.y < 0.3"}}],
+    ],
+)
 @pytest.mark.parametrize("preroll", [0, 0.13])
 def test_no_particle_is_lost_or_doubled(ops, preroll):
     """Each is there from its birth until it is noted as dead, once; nobody comes back."""
     gravity = {"type": "gravity"}
-    simulation = effect(document([gravity, *ops, {"type": "random_acceleration"}], MANY | {"count": 30, "every": 0.25}, preroll=preroll)).simulation()
+    simulation = effect(
+        document([gravity, *ops, {"type": "random_acceleration"}], MANY | {"count": 30, "every": 0.25}, preroll=preroll)
+    ).simulation()
     before, gone = set(), set()
     for _ in simulation.frames(25):
         sky = simulation.particles["sky"]
@@ -112,8 +126,16 @@ def test_no_particle_is_lost_or_doubled(ops, preroll):
 @pytest.mark.parametrize("life", [0.3, 0.011])
 def test_period_of_recycling_is_the_life(fps, substeps, life):
     """Lives of 0.3 s follow one another at multiples of it, and so do lives far shorter than a frame."""
-    found = last(effect(document([{"type": "gravity"}, {"type": "recycle"}, {"type": "set", "set": {"radius": {"expr": "lives"}}}],
-                                 FALL | {"life": life}, fps, substeps)))
+    found = last(
+        effect(
+            document(
+                [{"type": "gravity"}, {"type": "recycle"}, {"type": "set", "set": {"radius": {"expr": "lives"}}}],
+                FALL | {"life": life},
+                fps,
+                substeps,
+            )
+        )
+    )
     number = np.floor(1 / life)
     np.testing.assert_allclose(found["birth"], [number * life], rtol=0, atol=1e-12)
     assert found["radius"].tolist() == [number]
@@ -135,7 +157,9 @@ def test_life_begun_again_has_new_draws_and_the_same_id():
 def test_recycling_leaves_the_first_life_alone():
     """Until it dies a particle is to the last bit what it is without `recycle`."""
     emit = MANY | {"life": 0.4}
-    once, again = (effect(document([{"type": "gravity"}, {"type": "turbulence"}, *more], emit)) for more in ([], [{"type": "recycle"}]))
+    once, again = (
+        effect(document([{"type": "gravity"}, {"type": "turbulence"}, *more], emit)) for more in ([], [{"type": "recycle"}])
+    )
     for frame in (3, 9):
         first, second = once.simulate(frame)["sky"], again.simulate(frame)["sky"]
         assert all(np.array_equal(first[name], second[name]) for name in first)
@@ -152,7 +176,9 @@ def test_recycle_on_a_condition_begins_as_the_step_starts():
 def test_recycle_at_a_hit_begins_at_the_contact():
     """What is recycled at hits at 0.5 s, 1 s, ... is there at 0.7 s as it was at 0.2 s."""
     ops = [{"type": "bounce_plane"}, {"type": "recycle", "when": "hit"}]
-    np.testing.assert_allclose(last(effect(document(ops, fps=7, seconds=5 / 7)))["position"], [[5 / 7 - 0.5, 1 - 2 * (5 / 7 - 0.5), 0]], atol=1e-13)
+    np.testing.assert_allclose(
+        last(effect(document(ops, fps=7, seconds=5 / 7)))["position"], [[5 / 7 - 0.5, 1 - 2 * (5 / 7 - 0.5), 0]], atol=1e-13
+    )
 
 
 def test_endless_recycling_is_told(monkeypatch, tmp_path):
@@ -176,7 +202,10 @@ def test_endless_spawning_is_told():
 
 def test_spawned_particles_have_no_emitter_to_recycle_them():
     """`recycle` on a spawn's own stream is refused with a message."""
-    nodes = {"spark": {"type": "spawn", "from": "sky", "when": "birth", "life": 0.1}, "again": {"type": "recycle", "from": "spark"}}
+    nodes = {
+        "spark": {"type": "spawn", "from": "sky", "when": "birth", "life": 0.1},
+        "again": {"type": "recycle", "from": "spark"},
+    }
     with pytest.raises(GraphError, match="those of the spawn 'spark' have no emitter"):
         effect(document([], nodes=nodes, image={"from": "again"})).plan
 
@@ -185,7 +214,10 @@ def test_spawned_particles_have_no_emitter_to_recycle_them():
 def test_death_at_a_frame_is_in_it_and_birth_at_a_frame_too(fps):
     """Who dies at the time of a frame is not in it; who is reborn at that time is, at age 0."""
     dead = particles(document([], FALL | {"life": 0.5}, fps), fps // 2 + 1)
-    born = particles(document([{"type": "recycle"}, {"type": "set", "set": {"radius": {"expr": "age"}}}], FALL | {"life": 0.5}, fps), fps // 2 + 1)
+    born = particles(
+        document([{"type": "recycle"}, {"type": "set", "set": {"radius": {"expr": "age"}}}], FALL | {"life": 0.5}, fps),
+        fps // 2 + 1,
+    )
     assert len(dead["position"]) == 0 and born["radius"].tolist() == [0.0]
     np.testing.assert_array_equal(born["position"], [[0, 1, 0]])
 
@@ -193,5 +225,7 @@ def test_death_at_a_frame_is_in_it_and_birth_at_a_frame_too(fps):
 @pytest.mark.parametrize("preroll", [0.25, 0.13])
 def test_frames_before_the_first_are_counted_from_it(preroll):
     """What is born as a preroll begins is born in the frame before all that are simulated."""
-    found = particles(graph([], {"count": 1, "rate": 0, "set": {"radius": {"expr": "frame"}}}, {"preroll": preroll, "precision": 64}), 1)
+    found = particles(
+        graph([], {"count": 1, "rate": 0, "set": {"radius": {"expr": "frame"}}}, {"preroll": preroll, "precision": 64}), 1
+    )
     assert found["radius"].tolist() == [1 - np.ceil(preroll * 24)]

@@ -81,7 +81,10 @@ def test_values_of_one_set_read_each_other():
 
 def test_sets_act_in_stack_order():
     """Of two `set` operators the later one has the last word, and reads what the earlier gave."""
-    first, second = {"type": "set", "id": "a", "set": {"radius": 3}}, {"type": "set", "id": "b", "set": {"radius": {"expr": "radius + mass"}}}
+    first, second = (
+        {"type": "set", "id": "a", "set": {"radius": 3}},
+        {"type": "set", "id": "b", "set": {"radius": {"expr": "radius + mass"}}},
+    )
     assert after([first, second])["radius"].tolist() == [4.0]
     assert after([second, first])["radius"].tolist() == [3.0]
 
@@ -89,8 +92,14 @@ def test_sets_act_in_stack_order():
 def test_during_and_only_hold_a_set_back():
     """Outside its interval, or where its condition fails, nothing is set."""
     for when in ("birth", "step", "frame", "hit"):
-        kept = [after([FLOOR, setting(when, 9, **more)])["radius"] for more in (
-            {"during": [0.6, 0.7], "only": {"expr": "time < 0.55"}}, {"only": {"expr": "position.x > 5"}}, {"only": {"not": {"inside_sphere": {"radius": 9}}}})]
+        kept = [
+            after([FLOOR, setting(when, 9, **more)])["radius"]
+            for more in (
+                {"during": [0.6, 0.7], "only": {"expr": "time < 0.55"}},
+                {"only": {"expr": "position.x > 5"}},
+                {"only": {"not": {"inside_sphere": {"radius": 9}}}},
+            )
+        ]
         assert np.concatenate(kept).tolist() == [0.25] * 3
         assert after([FLOOR, setting(when, 9, during=[-1, 3], only={"expr": "mass == 1"})])["radius"].tolist() == [9.0]
 
@@ -118,8 +127,12 @@ def test_new_velocity_wakes_what_rests(when, substeps):
 
 def test_velocity_set_to_what_it_was_lets_rest():
     """Halving the velocity each step leaves what rests at rest: it is hit once."""
-    ops = [{"type": "gravity"}, FLOOR | {"response": "stick"}, setting("step", {"expr": "velocity / 2"}, "velocity"),
-           setting("frame", {"expr": "hits"})]
+    ops = [
+        {"type": "gravity"},
+        FLOOR | {"response": "stick"},
+        setting("step", {"expr": "velocity / 2"}, "velocity"),
+        setting("frame", {"expr": "hits"}),
+    ]
     found = after(ops, seconds=2)
     assert found["radius"].tolist() == [1.0] and found["position"][0, 1] == pytest.approx(0, abs=1e-12)
 
@@ -188,8 +201,12 @@ def test_fade_goes_on_from_what_a_hit_sets(fps, substeps, response):
 
 def test_draw_of_a_hit_is_new_at_each():
     """`per: hit` draws anew at each hit, and holds between."""
-    ops = [FLOOR | {"resilience": 1}, {"type": "bounce_plane", "id": "top", "point": [0, 1.1, 0], "normal": [0, -1, 0]},
-           setting("hit", {"rand": [0, 1], "per": "hit"}), setting("frame", {"expr": "hits"}, "mass", id="b"),
-           setting("frame", {"expr": "vec(radius, mass, 0)"}, "color", id="c")]
+    ops = [
+        FLOOR | {"resilience": 1},
+        {"type": "bounce_plane", "id": "top", "point": [0, 1.1, 0], "normal": [0, -1, 0]},
+        setting("hit", {"rand": [0, 1], "per": "hit"}),
+        setting("frame", {"expr": "hits"}, "mass", id="b"),
+        setting("frame", {"expr": "vec(radius, mass, 0)"}, "color", id="c"),
+    ]
     seen = {(float(mass), float(radius)) for radius, mass in (after(ops, n)["color"][0, :2] for n in range(1, 25))}
     assert len(seen) == len({mass for mass, _ in seen}) == len({radius for _, radius in seen}) >= 2
