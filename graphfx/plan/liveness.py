@@ -196,4 +196,6 @@ def reads_of_spawn(holder: Holder, maker: FlatNode, parents: list[Holder], store
     found |= holder.clusters.keys() & set(stored).union(*(names_in(value) for value in of_children))
     if moment_of(maker) == "hit":
         found.add("hits")
+    if "into" in maker.references:
+        found.add("generation")
     return {name.removeprefix("parent.") for name in found if not name.startswith("hit.")}

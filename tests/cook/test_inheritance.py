@@ -76,3 +76,18 @@ def test_what_a_parent_found_of_its_own_attributes_stays_the_parents() -> None:
     found = Effect(flatten(document_of(data), LIBRARY)).simulate(12)["it"]
     np.testing.assert_array_equal(found["color"], [[4, 7, 0]] * 2)
     np.testing.assert_array_equal(found["position"], [[0, 4, 0]] * 2)
+
+
+def test_generations_are_counted_through_a_stream_between() -> None:
+    """What joins its grandparents' emitter, by way of a stream of its own, is two generations on, and ends at the limit."""
+    nodes = {"sky": {"type": "emit", "count": 1, "life": 0.1},
+             "one": {"type": "spawn", "from": "sky", "when": "death", "life": 0.05},
+             "two": {"type": "spawn", "from": "one", "when": "death", "into": "sky", "life": 0.1, "generations": 4},
+             "mark": {"type": "set", "from": "sky", "set": {"radius": {"expr": "generation"}}},
+             "view": {"type": "camera"}, "frames": {"type": "image", "from": "mark", "camera": "view", "shutter": 0}}
+
+    def generations(frame: int) -> list[float]:
+        data = {"graphfx": 1, "time": {"frames": [0, frame], "precision": 64}, "nodes": nodes}
+        return list(Effect(flatten(document_of(data), LIBRARY)).simulate(frame)["sky"]["radius"])
+
+    assert [generations(frame) for frame in (1, 5, 9, 13)] == [[0.0], [2.0], [4.0], []]
