@@ -199,7 +199,7 @@ class _Planner:
         seed, precision, substeps = flat.seed, flat.time.precision, flat.time.substeps
         drawn, shutter = self._drawn(path)
         attributes = self.attributes[path]
-        movers = [mover_of(node, bool(never_acts(node, flat))) for node in holder.of_role(*MOVING_ROLES)]
+        movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
         method, reason = choose_method(movers, flat, has_velocity)
         motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method), holder.changing)

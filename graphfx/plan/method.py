@@ -54,10 +54,11 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[s
 
 def _how_exact(movers: list[Mover]) -> str:
     """Return how exact the steps of linear motion are, and what in them is not."""
-    changing = [mover.node.node_type.name for mover in movers if mover.role == "linear" and not mover.constant]
+    changing = [mover for mover in movers if mover.role == "linear" and not mover.constant]
     held = " in each 1/24 s, for which noise holds" if _has_role(movers, "noise") else ""
     if changing:
-        return f"exact{held} but for {', '.join(changing)}, taken at the middle of each step"
+        when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
+        return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
     return f"one exact step{held}"
 
 

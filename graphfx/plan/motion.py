@@ -155,13 +155,14 @@ class Motion:
             written = [state.read(n) if n in kept else Column("unused", "vec3") for n in mover.node.node_type.writes]
             builder.call(mover.function, *operands, into=tuple(written))  # type: ignore[arg-type]
             return
-        changed = state.position if mover.role == "velocity" else state.velocity
+        name = "position" if mover.role == "velocity" else "velocity"
+        changed = state.read(name)
         assert isinstance(changed, Column)
         rate = builder.call(mover.function, *operands, name=mover.role)
-        if mover.role == "velocity" and self.method != "sims":
+        if name in mover.arguments and self.method != "sims":
             middle = builder.call(basic.advance_half, changed, rate, dt, name="half way")
-            operands = self.arguments(mover, moment, state, {"dt": dt, "position": middle})
-            rate = builder.call(mover.function, *operands, name="velocity half way")
+            operands = self.arguments(mover, moment, state, {"dt": dt, name: middle})
+            rate = builder.call(mover.function, *operands, name=f"{mover.role} half way")
         builder.call(basic.advance, changed, rate, dt, into=changed)
 
     def _apply_paper(self, mover: Mover, moment: Moment, state: State) -> None:

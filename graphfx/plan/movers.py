@@ -9,6 +9,7 @@ from typing import Any
 from graphfx.graph.flat import FlatNode
 from graphfx.motion.probe import LinearForm, probe
 from graphfx.plan.evaluate import holds
+from graphfx.plan.holder import names_in
 from graphfx.plan.rates import depends_on_time, lane_type
 from graphfx.plan.values import node_function
 from graphfx.program import Function
@@ -21,7 +22,8 @@ INNER_ROLES = ("flow", "velocity", "acceleration")
 class Mover:
     """One operator of the motion, as it will run: its function, the names of its arguments, and its role.
 
-    A linear one has a form. An `idle` one acts at no time that is simulated.
+    A linear one has a form. An `idle` one acts at no time that is simulated. `changing` are the attributes that are set
+    within a frame.
     """
 
     node: FlatNode
@@ -30,6 +32,7 @@ class Mover:
     role: str
     form: LinearForm | None = None
     idle: bool = False
+    changing: frozenset[str] = frozenset()
 
     @property
     def writes_velocity(self) -> bool:
@@ -50,7 +53,13 @@ class Mover:
     @property
     def constant(self) -> bool:
         """Return whether the values of its parameters stay the same for a particle."""
-        return not any(map(depends_on_time, self.node.arguments.values()))
+        return not any(depends_on_time(value, self.changing) for value in self.node.arguments.values())
+
+    @property
+    def follows_state(self) -> bool:
+        """Return whether its parameters depend on where the particle is, or on how it moves."""
+        names = set().union(*map(names_in, self.node.arguments.values()))
+        return bool(names & {"position", "velocity"})
 
 
 def linear_form(mover: Mover) -> Mover | None:
@@ -60,7 +69,7 @@ def linear_form(mover: Mover) -> Mover | None:
     return Mover(mover.node, *_rate_function(mover.node.node_type), "linear")
 
 
-def mover_of(node: FlatNode, idle: bool = False) -> Mover:
+def mover_of(node: FlatNode, idle: bool = False, changing: frozenset[str] = frozenset()) -> Mover:
     """Return an operator as it will run.
 
     A flow whose `exact_if` holds runs as the linear operator that it then is; a linear operator without a simple form
@@ -74,7 +83,7 @@ def mover_of(node: FlatNode, idle: bool = False) -> Mover:
     if role == "linear" and "velocity" in node_type.writes:
         form = probe(function.body, arguments, function.arguments)
         role = "linear" if form is not None else "acceleration"
-    return Mover(node, function, arguments, role, form, idle)
+    return Mover(node, function, arguments, role, form, idle, changing)
 
 
 def _rate_function(node_type: Any) -> tuple[Function, tuple[str, ...]]:

@@ -81,16 +81,24 @@ def rate_of(tree: Any, scope: Scope) -> Rate:
     return max(own, *(rate_of(part, scope) for part in children(tree)), Rate.CONSTANT)
 
 
-def depends_on_time(tree: Any) -> bool:
-    """Return whether a value changes while a particle lives: by time, frame, age, or an attribute that moves."""
-    changing = isinstance(tree, (Name, Keys)) or (isinstance(tree, (Random, Node)) and tree.per in ("frame", "hit"))
-    changing |= isinstance(tree, Literal) and tree.type == "mesh"
-    reads = (
-        isinstance(tree, Node)
-        and tree.node_type is not None
-        and bool(tree.node_type.reads or {"time", "frame"}.intersection(tree.node_type.reserved))
-    )
-    return changing or reads or any(depends_on_time(part) for part in children(tree))
+ALWAYS_CHANGING = frozenset({"time", "frame", "age", "normalized_age", "position", "velocity", "hits"})
+
+
+def depends_on_time(tree: Any, changing: frozenset[str] | None = None) -> bool:
+    """Return whether a value changes while a particle lives: by time, frame, age, a hit, or an attribute that it reads.
+
+    `changing` are the attributes that are set within a frame; where it is given, the others count as constant.
+    """
+
+    def changes(name: str) -> bool:
+        return changing is None or name in ALWAYS_CHANGING or name in changing
+
+    own = isinstance(tree, Keys) or (isinstance(tree, Name) and changes(tree.name))
+    own |= isinstance(tree, (Random, Node)) and tree.per in ("frame", "hit")
+    own |= isinstance(tree, Literal) and tree.type == "mesh"
+    if isinstance(tree, Node) and tree.node_type is not None:
+        own |= any(map(changes, tree.node_type.reads)) or bool({"time", "frame"}.intersection(tree.node_type.reserved))
+    return own or any(depends_on_time(part, changing) for part in children(tree))
 
 
 def identity_of(tree: Any) -> Any:

@@ -12,6 +12,11 @@ PLACE = {"type": "set", "when": "step", "set": {"rest_position": {"expr": "vec(t
 STACKS = {
     "spiral": [AXIS, {"type": "spiral", "speed": 5}],
     "spring": [PLACE, {"type": "spring", "frequency": 5}],
+    "damping by an attribute": [
+        {"type": "set", "when": "step", "set": {"mass": {"expr": "1 + time"}}},
+        {"type": "damp", "damping": {"expr": "mass"}},
+        {"type": "gravity"},
+    ],
     "fading spring": [{"type": "fade", "rate": 2, "set": {"rest_position": [3, 0, 0]}}, {"type": "spring", "frequency": 5}],
 }
 

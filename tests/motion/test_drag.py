@@ -133,6 +133,18 @@ def test_without_a_threshold_damping_is_linear():
         np.testing.assert_allclose(velocity[-1], [np.exp(-d), -9.81 * -np.expm1(-d) / d, 0], rtol=1e-13)
 
 
+LIMITS = {"damp": {"expr": "mass * 0"}, "undamp": {"expr": "mass / 0"}}
+
+
+@pytest.mark.parametrize("name", LIMITS)
+def test_flow_and_rate_say_the_same(name):
+    """At a threshold that is never met, but known only for each particle, the flow gives what the linear form gives."""
+    linear, flow = path([{"type": name}], (1, 2, 0), V), path([{"type": name, "threshold": LIMITS[name]}], (1, 2, 0), V)
+    for one, other in zip(linear, flow, strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-12)
+    assert LIMITS.keys() == {other for other in LIBRARY if LIBRARY[other].linear is not None}
+
+
 def test_reason_of_a_lone_flow():
     """The plan says that a flow carries by the velocity, and what does not commute otherwise."""
     for ops, reason in (

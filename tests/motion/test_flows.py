@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.cook.effect import Effect
 from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
@@ -114,6 +115,8 @@ def test_methods_are_told_with_their_reasons():
         for ops, method in (
             ([{"type": "gravity"}, {"type": "spiral"}], "auto"),
             ([{"type": "gravity"}, {"type": "damp", "damping": {"keys": [[0, 1], [1, 2]]}}], "auto"),
+            ([{"type": "damp", "damping": {"expr": "abs(position.y)"}}, {"type": "gravity"}], "auto"),
+            ([{"type": "damp", "damping": {"expr": "2 * mass"}}, {"type": "gravity"}], "auto"),
             (FIELDS["two vortices"], "auto"),
             ([{"type": "gravity"}], "sims"),
         )
@@ -121,6 +124,8 @@ def test_methods_are_told_with_their_reasons():
     assert [(plan.method, plan.reason) for plan in told] == [
         ("exact", "all motion is linear (gravity, spiral): one exact step"),
         ("exact", "all motion is linear (gravity, damp): exact but for damp, taken at the middle of each step"),
+        ("exact", "all motion is linear (damp, gravity): exact but for damp, held from the start of each step"),
+        ("exact", "all motion is linear (damp, gravity): one exact step"),
         ("strang", "flows that do not commute (free flight, vortex, vortex): composed symmetrically, second order"),
         ("sims", "asked for: the paper's scheme, first order, operations in stack order"),
     ]
@@ -163,3 +168,39 @@ def test_a_flow_that_reads_the_time_is_not_called_exact(tmp_path):
     }
     plan = make_plan(flatten(document_of(document), Library(library_roots([tmp_path]))))
     assert plan.emitters["sky"].method == "strang"
+
+
+RESISTED = '''"""Resisted: dV/dt = -|V| V."""
+
+from graphfx.math import Vec3, length
+from graphfx.node import operator
+
+
+@operator.acceleration
+def resisted(velocity: Vec3) -> Vec3:
+    """Return the acceleration."""
+    return velocity * -length(velocity)
+'''
+
+
+def test_an_acceleration_that_reads_the_velocity_is_of_second_order(tmp_path):
+    """It is taken half way: V / (1 + V t) is met at an order of 2, with gravity beside it or alone."""
+    file = tmp_path / "nodes" / "operators" / "resisted.py"
+    file.parent.mkdir(parents=True)
+    file.write_text(RESISTED)
+    errors = []
+    for steps in (8, 16, 32):
+        document = {
+            "graphfx": 1,
+            "time": {"fps": 1, "frames": [0, 1], "precision": 64, "substeps": steps},
+            "nodes": {
+                "sky": {"type": "emit", "rate": 1, "during": [-1, 0.5], "set": {"velocity": [3, 0, 0]}},
+                "act": {"type": "resisted", "from": "sky"},
+                "view": {"type": "camera"},
+                "frames": {"type": "image", "from": "act", "camera": "view", "shutter": 0},
+            },
+        }
+        found = Effect(flatten(document_of(document), Library(library_roots([tmp_path])))).simulate(1)["sky"]
+        errors.append(abs(found["velocity"][0, 0] - 0.75) + abs(found["position"][0, 0] - np.log(4)))
+    orders = np.log2(np.divide(errors[:-1], errors[1:]))
+    assert (orders >= 1.8).all(), orders
