@@ -131,12 +131,13 @@ class BirthWriter:
 
     def _at_birth(self) -> None:
         """Write what operators set at birth, in stack order."""
+        live = [*self.attributes.types, *self._originals()]
         for node in self.holder.of_role("set", "assign"):
             if moment_of(node) != "birth":
                 continue
             setting = Setting(node, self._writer, self.builder, self.found.__getitem__)
-            for name in setting.targets(self.attributes.types):
+            for name in setting.targets(live):
                 now = self.found.get(name) or self.found[name.removeprefix("tail.")]
                 self.found[name] = as_column(self.builder, now, self._lane(name), name, always=True)
-            setting.write(self.attributes.types)
+            setting.write(live)
 

@@ -152,6 +152,14 @@ class Holder:
             found |= {"position", "velocity", "hits"}
         if self.of_role("recycle"):
             found.add("lives")
+        found |= self.made_apart
+        return found | ({"position"} if self.moving(found) else set())
+
+    @cached_property
+    def made_apart(self) -> set[str]:
+        """Return the attributes that differ at birth by who made the particle, or that are set or spread at birth."""
+        at_birth = [node for node in self.of_role("set", "assign") if moment_of(node) == "birth"]
+        found = {name for node in at_birth for name in (*node.sets, *node.node_type.writes) if name in self.table}
         for adder in self.adders:
             found |= {"generation", *adder.sets, *(["life"] if "life" in adder.given else [])}
             listed = _listed(adder)
@@ -162,7 +170,7 @@ class Holder:
                 found.add("velocity")
         if "spread" in self.maker.given:
             found.add("velocity")
-        return found | ({"position"} if self.moving(found) else set())
+        return found
 
     def moving(self, written: set[str]) -> bool:
         """Return whether the particles' own velocities carry them."""
@@ -176,7 +184,7 @@ class Holder:
 
     def varies_at_birth(self, name: str) -> bool:
         """Return whether an attribute differs by particle at birth."""
-        if name not in self.table:
+        if name not in self.table or name in self.made_apart:
             return True
         reading = Scope(0, "", None, None, lambda inner: inner != name and self.varies_at_birth(inner))  # type: ignore[arg-type]
         return rate_of(self.value(name), reading) > Rate.CONSTANT

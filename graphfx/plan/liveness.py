@@ -88,8 +88,10 @@ class Reading:
                 self.note(names_in(node.sets[name]) if name in node.sets else (), node.path)
 
     def targets(self, node: FlatNode) -> list[str]:
-        """Return the attributes that a setting operator gives and that are read."""
-        return [name for name in (*node.sets, *node.node_type.writes) if name in self.readers]
+        """Return the attributes that a setting operator gives and that are read; at birth as `birth.x` as well."""
+        given = (*node.sets, *node.node_type.writes)
+        at_birth = moment_of(node) == "birth"
+        return [name for name in given if name in self.readers or (at_birth and f"birth.{name}" in self.readers)]
 
 
 def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> Attributes:

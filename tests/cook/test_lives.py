@@ -207,7 +207,7 @@ def test_spawned_particles_have_no_emitter_to_recycle_them():
         "again": {"type": "recycle", "from": "spark"},
     }
     with pytest.raises(GraphError, match="those of the spawn 'spark' have no emitter"):
-        effect(document([], nodes=nodes, image={"from": "again"})).plan
+        effect(document([], nodes=nodes, image={"from": "again"})).plan  # noqa: B018, it tells what is wrong
 
 
 @pytest.mark.parametrize("fps", [8, 24])

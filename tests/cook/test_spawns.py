@@ -109,7 +109,7 @@ def test_no_count_no_children(count):
 def test_too_many_children_are_told(many):
     """What would not fit ends in a message that names the spawn."""
     with pytest.raises(
-        LimitError, match="nodes.it: .* particles would be alive at once, and the limit is 100,000,000; lower its count"
+        LimitError, match=r"nodes\.it: .* particles would be alive at once, and the limit is 100,000,000; lower its count"
     ):
         children(many)
 
