@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -39,6 +40,9 @@ def override(graph: Graph, checking: Checking, overrides: Mapping[str, Any]) -> 
     return given
 
 
+_ENDLESS, _QUOTED = re.compile(r"(?<![\w\"-])-?infinity\b"), r'"\g<0>"'
+
+
 def _place(name: str, value: Any) -> Location:
     return Location(f"--set {name}={value if isinstance(value, str) else json.dumps(value, default=str)}")
 
@@ -51,7 +55,7 @@ def _read(graph: Graph, checking: Checking, name: str, value: Any) -> Value | No
     if parameter.type not in ("string", "path") or not isinstance(value, str):
         listed = lane(parameter.type) in ("vec3", "interval", "list") and not text.lstrip().startswith(("[", "#", '"'))
         try:
-            found, problems = read(f"[{text}]" if listed else text, place.file)
+            found, problems = read(f"[{_ENDLESS.sub(_QUOTED, text)}]" if listed else text, place.file)
         except GraphError:
             found, problems = item, []
         item = item if problems else found

@@ -179,7 +179,8 @@ PUSH = {"type": "push", "by": {"param": "way"}, "tint": {"param": "tint"}, "back
     ("way", "1,2,3", "by", (1.0, 2.0, 3.0)), ("way", "[1, 2, 3]", "by", (1.0, 2.0, 3.0)), ("way", [1, 2, 3], "by", (1.0,
     2.0, 3.0)),
     ("tint", "#ffffff", "tint", (1.0, 1.0, 1.0)), ("tint", "1, 0.5, 0", "tint", (1.0, 0.5, 0.0)), ("on", "false", "back", False),
-    ("often", "7", "times", 7), ("mode", "replace", "mode", "replace"), ("spell", "2,3", "span", (2.0, 3.0))])
+    ("often", "7", "times", 7), ("mode", "replace", "mode", "replace"), ("spell", "2,3", "span", (2.0, 3.0)),
+    ("spell", "2, infinity", "span", (2.0, float("inf"))), ("spell", "-infinity,3", "span", (float("-inf"), 3.0))])
 def test_a_parameter_can_be_set_for_one_cook(name: str, text: Any, argument: str, value: Any, library: Library) -> None:
     """`--set name=value` reads a value as its parameter's type says."""
     found = flat(graph(stack(PUSH), params=PARAMS), library, **{name: text}).nodes["fall/push"].arguments[argument]
