@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from graphfx.cli.word_docs import TOPIC, function_lines
 from graphfx.graph.document import document_of
 from graphfx.graph.format import canonical
 from graphfx.graph.names import INTERPOLATIONS, REPEATS, SCOPES, VALUE_KEYS
@@ -48,6 +49,9 @@ def describe_value(name: str, library: Library) -> str:
     """Return everything about a value of the language."""
     modifiers = [f"  {key:13}  {MODIFIERS[key]}" for key in VALUE_KEYS[name]]
     parts = [f"{name} (a value of the language)", "", SUMMARIES[name], "", *([*modifiers, ""] if modifiers else [])]
+    if name == "expr":
+        parts += [f"Names: those of 'graphfx nodes {TOPIC}', time, frame, clusters, named values, param.x.", ""]
+        parts += [*(f"  {line}" for line in function_lines()), ""]
     return "\n".join([*parts, "A graph that runs", "", canonical(document_of(value_sample(name)), library).rstrip()])
 
 

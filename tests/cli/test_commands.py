@@ -226,3 +226,15 @@ def test_text_has_no_place_on_lanes(invoke, folder: Path) -> None:
     assert invoke("check", "sample.json", "--library", "mine") == (
         1, "", f"{node.relative_to(folder)}:6: drift: its parameter 'mood' is a string, and functions for "
         "particles are given float, int, vec3, point, direction, color, bool alone in this version\n")
+
+
+def test_words_of_the_language_are_told(invoke) -> None:
+    """`nodes attributes` has a line for each attribute, `nodes expr` for each function; other tools' names lead there."""
+    from graphfx.graph.functions import FUNCTIONS
+    from graphfx.node import ATTRIBUTES
+
+    lines = invoke("nodes", "attributes")[1].splitlines()
+    assert all(sum(line.split()[:1] == [name] for line in lines) == 1 for name in ATTRIBUTES)
+    text = invoke("nodes", "expr")[1]
+    assert all(f"  {function.spelling}" in text and function.doc in text for function in FUNCTIONS.values())
+    assert invoke("nodes", "pscale")[1].startswith("radius [m] ") and invoke("nodes", "Cd")[1].startswith("color ")

@@ -26,8 +26,9 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     from graphfx.cli.group_docs import describe_group, group_data, group_lines, group_texts, groups_of
     from graphfx.cli.node_docs import describe, load_all, mentions, node_data, table, texts_of
     from graphfx.cli.value_docs import describe_value, value_lines, value_texts
+    from graphfx.cli.word_docs import TOPIC, attribute_lines, describe_attributes
     from graphfx.graph.names import VALUE_KEYS
-    from graphfx.node import Library, library_roots
+    from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Library, library_roots
 
     nodes = Library(library_roots(library))
     if name is not None and name in nodes:
@@ -41,6 +42,13 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     if name in VALUE_KEYS and not as_json:
         click.echo(describe_value(str(name), nodes))
         return
+    if name == TOPIC:
+        click.echo(describe_attributes())
+        return
+    attribute = OTHER_NAMES.get(str(name), str(name))
+    if attribute in {**ATTRIBUTES, **DERIVED_ATTRIBUTES}:
+        click.echo("\n".join([*attribute_lines((attribute,)), f"an attribute of particles; 'graphfx nodes {TOPIC}' lists all"]))
+        return
     if name is not None:
         found = mentions(name, texts_of(types) | value_texts() | group_texts(groups))
         near = suggestion(name, [*nodes, *VALUE_KEYS, *groups])
@@ -51,7 +59,8 @@ def command(context: click.Context, name: str | None, as_json: bool, library: tu
     else:
         parts = {"values of the language": value_lines(), "groups": group_lines(groups)}
         further = [line for title, lines in parts.items() for line in ("", title, *(f"  {line}" for line in lines))]
-        click.echo("\n".join([table(types), *further, "", "'graphfx nodes NAME' says all about one."]))
+        hint = f"'graphfx nodes NAME' says all about one; 'graphfx nodes {TOPIC}' lists what particles have."
+        click.echo("\n".join([table(types), *further, "", hint]))
     if problems:
         show(problems)
         context.exit(EXIT_GRAPH)
