@@ -28,3 +28,17 @@ def test_steps_in_a_frame_are_frames(name):
     ends = [path(STACKS[name], (0, 1, 0), (1, 0, 0.5), 24 * n, 24 * n, substeps=4 // n, **born) for n in (1, 4)]
     for one, other in zip(*ends, strict=True):
         np.testing.assert_allclose(one[-1], other[-1], rtol=0, atol=1e-12)
+
+
+def test_what_counts_hits_changes_at_the_hit():
+    """A parameter that reads `hits` is another one from the instant of contact on, however long the frames are."""
+    ops = [
+        {"type": "translate", "rate": {"expr": "vec(hits % 3 - 1, 0, 0)"}},
+        {"type": "gravity"},
+        {"type": "bounce_plane", "resilience": 0.8},
+    ]
+    ends = [path(ops, (0, 1, 0), (0, 0, 0), fps, 2 * fps) for fps in (1, 24)]
+    for one, other in zip(*ends, strict=True):
+        np.testing.assert_allclose(one[-1], other[-1], rtol=0, atol=1e-9)
+    paces = np.diff(ends[1][0][:, 0]) * 24
+    assert {-1, 0, 1} <= {round(pace, 9) for pace in paces}
