@@ -62,7 +62,8 @@ def read_graph(document: Document, checking: Checking, groups: Groups | None = N
     own.clusters(part("nodes"))
     own.merge()
     reader = ValueReader(checking, literals)
-    scope = Scope("", "", graph.params, lambda name: None, broken=graph.broken, own=graph.attributes, clusters=graph.clusters)
+    scope = Scope("", "", graph.params, lambda name: None, broken=graph.broken, own=graph.attributes, clusters=graph.clusters,
+                  groups_own=graph.groups_own)
     values = NamedValues(checking, reader, part("values"), scope)
     _nodes(checking, graph, part("nodes"), NodeReader(checking, graph, reader, values))
     if whole:

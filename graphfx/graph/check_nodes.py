@@ -15,7 +15,7 @@ from graphfx.graph.items import Item, shown
 from graphfx.graph.model import Entry, Graph
 from graphfx.graph.moments import check_spawn, is_hit, read_moment
 from graphfx.graph.named import NamedValues
-from graphfx.graph.names import ID, REFERENCE_TYPES, SCOPES, keys_of
+from graphfx.graph.names import ID, REFERENCE_TYPES, keys_of
 from graphfx.graph.own import check_inherited, read_clusters
 from graphfx.graph.scope import Scope
 from graphfx.graph.sets import AttributeReader
@@ -159,7 +159,7 @@ class NodeReader:
         if "clusters" in item.value and "clusters" in keys:
             read_clusters(self.reader, entry, item.value["clusters"], settled)
         if "per" in item.value and "per" in keys:
-            entry.per = self.checking.choice(item.value["per"], f"{entry.path}.per", '"per"', (*SCOPES, *scope.clusters))
+            entry.per = scope.per(self.checking, item.value["per"], f"{entry.path}.per")
         if entry.role == "spawn":
             check_spawn(self.checking, entry, item)
 

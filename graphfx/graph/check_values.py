@@ -217,7 +217,7 @@ class ValueReader:
 
     def _rand(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:
         path, inner = _join(scope.path, key), item.value[name]
-        per = self._choice(item, path, "per", (*SCOPES, *scope.clusters), '"per"')
+        per = scope.per(self.checking, item.value["per"], f"{path}.per") if "per" in item.value else SCOPES[0]
         vary = item.value.get("vary")
         share = self.literals.read(vary, Parameter("vary", "float", None, min=0, max=1), f"{path}.vary") if vary else 0.0
         if want.type and lane(want.type) not in ("float", "vec3"):
@@ -242,7 +242,7 @@ class ValueReader:
             return None
         parameters = node_type.parameters
         notes = (takes(name, parameters.values()), declared(node_type))
-        per = self._choice(item, path, "per", (*SCOPES, *scope.clusters), '"per"')
+        per = scope.per(self.checking, item.value["per"], f"{path}.per") if "per" in item.value else SCOPES[0]
         kind = node_type.result[0] if node_type.result else ""
         fits = self._fits(item, path, kind, want, name)
         if not inner.is_object:

@@ -126,6 +126,12 @@ class Graph:
     """JSON paths of what is named but wrong, which has been told: no one who refers to it is to blame."""
 
     @property
+    def groups_own(self) -> dict[str, str]:
+        """Return the types of what its groups declare of particles and it does not: attributes and clusters."""
+        return {name: attribute.type for name, (attribute, _) in self.merged.items()
+                if name not in self.attributes and name not in self.clusters}
+
+    @property
     def parameter_line(self) -> str:
         """Return all parameters with units on one line."""
         return ", ".join(parameter.label for parameter in self.params.values()) or "no parameters"

@@ -8,9 +8,11 @@ from itertools import islice
 from typing import Any
 
 from graphfx.errors import suggestion
-from graphfx.graph.checking import listed, nearest
+from graphfx.graph.checking import Checking, listed, nearest
 from graphfx.graph.functions import CONSTANTS
+from graphfx.graph.items import Item
 from graphfx.graph.literals import lane
+from graphfx.graph.names import SCOPES
 from graphfx.graph.values import Expression, Member, Name, Node, ParameterValue, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
 
@@ -40,6 +42,8 @@ class Scope:
     own: Mapping[str, Attribute] = field(default_factory=dict)
     """The graph's own attributes."""
     clusters: Collection[str] = ()
+    groups_own: Mapping[str, str] = field(default_factory=dict)
+    """The types of attributes and clusters that only the graph's groups declare."""
     settled: bool = False
     """Whether the value must be known before the cook: time passes, and draws are made, only later."""
 
@@ -62,6 +66,8 @@ class Scope:
             if self.uniform:
                 return f"'{word}' cannot be read here: {self.uniform}"
             return Name(word), lane(found.type) if found else "float"
+        if word in self.groups_own:
+            return self.undeclared(word)
         if word in self.params:
             return f"there is no name '{word}'. Did you mean 'param.{word}'?"
         if word in ("param", "birth", "parent", "hit"):
@@ -70,6 +76,19 @@ class Scope:
         known = [*islice(self.names, _MOST_NAMES), *READABLE, *islice(self.own, _MOST_NAMES), *islice(self.clusters, _MOST_NAMES),
                  *ALWAYS, *CONSTANTS, *params]
         return f"there is no name '{word}'." + suggestion(word, known, OTHER_NAMES)
+
+    def undeclared(self, word: str) -> str:
+        """Return what to do about an attribute or a cluster that only a group declares."""
+        kind = self.groups_own[word]
+        what = "cluster" if kind == "cluster" else "attribute"
+        return f"'{word}' is the {what} of a group; declare it here too: \"attributes\": {{\"{word}\": {{\"type\": \"{kind}\"}}}}"
+
+    def per(self, checking: Checking, item: Item, path: str) -> str:
+        """Return what has one draw: a scope or a cluster, or '' after a complaint."""
+        if item.is_text and self.groups_own.get(item.value) == "cluster":
+            checking.complain(item.location, path, self.undeclared(item.value))
+            return ""
+        return checking.choice(item, path, '"per"', (*SCOPES, *self.clusters))
 
     def members(self, word: str) -> dict[str, tuple[Any, str]]:
         """Return the results of a named value that has several, by their names."""

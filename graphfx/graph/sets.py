@@ -68,6 +68,8 @@ class AttributeReader:
                 continue
             elif name in scope.clusters:
                 self.checking.complain(location, at, f"'{name}' is a cluster; its emitter gives the numbers")
+            elif name in scope.groups_own and scope.groups_own[name] != "cluster":
+                self.checking.complain(location, at, scope.undeclared(name))
             elif name not in ATTRIBUTES and name not in TAIL and own is None:
                 known = [*ATTRIBUTES, *islice(scope.own, 2000), *(TAIL if entry.role == "set" else ())]
                 near = suggestion(name, known, OTHER_NAMES) or _declaration(name)

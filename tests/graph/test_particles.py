@@ -209,7 +209,7 @@ def test_a_group_brings_its_attributes(library: Library, tmp_path: Path) -> None
     nodes["sky"] = {"type": "emit", "set": {"heat": 2}}
     told = check(document_of({"graphfx": 1, "use": use, "nodes": nodes}, folder=tmp_path), library)
     assert [problem.message for problem in told] == [
-        "there is no attribute 'heat'. A graph declares its own: \"attributes\": {\"heat\": {\"type\": \"float\"}}"]
+        "'heat' is the attribute of a group; declare it here too: \"attributes\": {\"heat\": {\"type\": \"float\"}}"]
 
 
 def test_an_attribute_of_two_types_is_told(library: Library, tmp_path: Path) -> None:
@@ -232,6 +232,20 @@ def test_a_group_may_use_a_cluster_that_it_declares(library: Library, tmp_path: 
     nodes = {"sky": {"type": "emit", "clusters": {"flicker": {"count": 3}}}, "v": {"type": "g", "from": "sky"}}
     found = flat(nodes, library, tmp_path, use={"g": "g.json"})
     assert found.nodes["v/v"].arguments["speed"].per == "flicker" and found.attributes == {}  # type: ignore[attr-defined]
+
+
+def test_a_cluster_of_a_group_is_made_known_by_declaring_it(library: Library, tmp_path: Path) -> None:
+    """Without that the graph is told how; with it, the cluster is one of those that the group's emitter numbers."""
+    (tmp_path / "fire.json").write_text(json.dumps({
+        "graphfx": 1, "outputs": {"f": "e"}, "nodes": {"e": {"type": "emit", "clusters": {"flicker": {"count": 3}}}}}))
+    nodes = {"f": {"type": "fire"}, "v": {"type": "spiral", "from": "f", "speed": {"rand": [0, 1], "per": "flicker"},
+                                          "only": {"expr": "flicker == 1"}}}
+    top = {"use": {"fire": "fire.json"}, "nodes": nodes}
+    told = check(document_of({"graphfx": 1, **top}, folder=tmp_path), library)
+    assert [problem.message for problem in told] == [
+        "'flicker' is the cluster of a group; declare it here too: \"attributes\": {\"flicker\": {\"type\": \"cluster\"}}"] * 2
+    declared = {"flicker": {"type": "cluster"}}
+    assert check(document_of({"graphfx": 1, "attributes": declared, **top}, folder=tmp_path), library) == []
 
 
 def test_the_tail_is_set_after_what_it_reads(library: Library) -> None:
