@@ -164,6 +164,15 @@ def test_machine_agrees_with_plain_python(ops: list, emit: dict, precision: int,
     assert all(ours.tobytes() == theirs.tobytes() for ours, theirs in zip(machine, reference, strict=True))
 
 
+@pytest.mark.parametrize("precision", PRECISIONS)
+def test_a_particle_moves_alone_as_among_many(precision: int, state: Any) -> None:
+    """What others in its block meet, and how long the search for their contacts takes, changes no bit of a particle."""
+    ops = [{"type": "gravity"}, {"type": "spiral", "speed": 3}, bounce(resilience=0.8)]
+    emit = {"position": STARTS["ring"], "velocity": {"in_sphere": {"radius": 10}}}
+    many, few = (state(RING, ops, emit, 60, count, precision) for count in (900, 30))
+    assert all(every[:30].tobytes() == alone.tobytes() for every, alone in zip(many, few, strict=True))
+
+
 def test_a_moved_mesh_is_met_where_it_stands(state: Any) -> None:
     """A floor that was moved, turned and stretched is met there."""
     placed = {**FLOOR, "translate": [0, -3, 0], "rotate": [180, 0, 0], "scale": [2, 1, 2]}

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphfx.geometry import Mesh, box, points, sphere, upmost_tangent
+from graphfx.geometry import Mesh, points, sphere, upmost_tangent
 from graphfx.geometry.access import split_even
 from graphfx.geometry.areas import alias_table
 from graphfx.geometry.tables import MeshTables
@@ -139,12 +139,12 @@ def test_tangents_climb(precision: int) -> None:
 
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_each_vertex_has_its_particle(precision: int) -> None:
-    """Particle k is at vertex k mod 8 of a box, exactly, also where k needs more than 32 bits."""
-    mesh = box((1, 2, 3))
+    """Particle k is at vertex k mod 12 of an icosahedron, exactly, also where k needs more than 32 bits."""
+    mesh = sphere(1.0, 0)
     ids = np.array([*range(30), *range(2**40, 2**40 + 30), *range(2**63, 2**63 + 7)], np.uint64)
     found, normal = on_lanes(AT_VERTICES, [ids, MeshTables(mesh)], precision)
-    which = (ids % 8).astype(int)
-    assert found.tolist() == mesh.vertices[which].tolist()
+    which = (ids % 12).astype(int)
+    assert found.tolist() == mesh.vertices.astype(KINDS[precision])[which].tolist()
     assert np.allclose(normal, mesh.vertex_normals()[which], atol=1e-7)
 
 
