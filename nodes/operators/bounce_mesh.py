@@ -5,6 +5,9 @@ along the true path. A particle is kept a hair's breadth (64 units in the last p
 off the mesh, so that it never ends up behind it. One that starts on the mesh counts as in front of it. It goes particle
 by particle.
 
+A mesh that moves is met where it stands in the middle of each step, and gives particles nothing of its own speed; one
+that sweeps on faster than they get away may pass over them.
+
 Also called: collider, collision, collide with geometry.
 """
 
