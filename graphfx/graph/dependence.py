@@ -36,8 +36,10 @@ def in_order(checking: Checking, entry: Entry, sets: dict[str, Value], item: Ite
     read = {name: set(names_read(value)) for name, value in given.items()}
     nearest = {name for name, (_, by) in entry.clusters.items() if not (isinstance(by, Literal) and by.value == "turn")}
     before = {name: {"position" if other in nearest else other for other in names} for name, names in read.items()}
-    if entry.role == "emit":
-        before |= {name: {attribute.follows} for name, attribute in ATTRIBUTES.items() if attribute.follows and name not in given}
+    if entry.role == "emit" or (entry.role == "spawn" and "inherit" in entry.arguments):
+        inherited = getattr(entry.arguments.get("inherit"), "value", None) or ()
+        before |= {name: {attribute.follows} for name, attribute in ATTRIBUTES.items()
+                   if attribute.follows and name not in given and name not in inherited}
     for circle in _circles(before, alone=entry.role == "emit"):
         name = next(name for name in circle if name in given)
         location = item.key_location(name) if item is not None and name in sets else given[name].location
@@ -101,7 +103,7 @@ def of_parent(name: str, value: Value, inherited: bool, attribute: Attribute) ->
     """Return what a spawn sets an attribute to, where it reads itself: that stands for what the parent passed on."""
     before: Any = Name(f"parent.{name}")
     if not inherited:
-        before = Literal(attribute.type, value=attribute.default)
+        before = Name(attribute.follows) if attribute.follows else Literal(attribute.type, value=attribute.default)
     done: dict[int, tuple[Any, Any]] = {}
 
     def new(tree: Any) -> Any:
