@@ -212,7 +212,7 @@ def test_spawn_hears_the_surfaces_that_it_names():
     for source, time in (("it", 0.5), ("other", 1.0)):
         found = children(*given, nodes=other, show=("it", "other"), source=source, seconds=1.2, fps=10)
         np.testing.assert_allclose(found["birth"], [time], rtol=0, atol=1e-14)
-    emit = FALL | {"set": {"position": [0, 1, 0], "velocity": [-2, -2, 0]}}
+    emit, wall = FALL | {"set": {"position": [1, 1, 0], "velocity": [-2, -2, 0]}}, wall | {"point": [0, 0, 0]}
     corner = children({"when": "hit", "set": {"velocity": {"expr": "hit.normal"}}}, [DRIFT, FLOOR, wall], emit)
     np.testing.assert_allclose(sorted(corner["velocity"].tolist()), [[0, 1, 0], [1, 0, 0]])
 
