@@ -187,6 +187,8 @@ class FrameWriter:
             first = builder.call(events.is_by, turn.fate.begun, Uniform(str(k), "float", float(k)), name="first")
             here = builder.call(basic.both, here, first, name="here")
         inside = builder.under(here)
+        if turn.resting is not None:
+            inside.call(basic.copy_number, start, into=turn.now)
         if turn.fate is not None:
             inside.call(basic.copy_number, Uniform(str(k + 1), "float", float(k + 1)), into=turn.fate.begun)
         for node in self.settings:

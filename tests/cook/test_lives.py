@@ -50,6 +50,17 @@ def test_death_at_a_hit_is_at_the_time_of_contact(fps, substeps, ops):
     np.testing.assert_allclose(ends(effect(document(ops, fps=fps, substeps=substeps))), [0.5], rtol=0, atol=1e-14)
 
 
+def test_what_is_killed_is_not_recycled():
+    """Only who dies of age begins again: killed by the floor, at a step or at a frame, it is gone."""
+    for op in (
+        {"type": "bounce_plane", "response": "die"},
+        {"type": "kill", "only": {"expr": "time > 0.49"}},
+        {"type": "kill", "when": "frame", "only": {"expr": "time > 0.49"}},
+    ):
+        found = ends(effect(document([op, {"type": "recycle"}], FALL | {"life": 0.8})))
+        np.testing.assert_allclose(found, [0.5], rtol=0, atol=1e-14)
+
+
 @pytest.mark.parametrize("fps, substeps", RATES)
 def test_kill_acts_as_a_step_starts(fps, substeps):
     """The first step that starts below half a metre ends the fall, at the very start of it."""

@@ -185,24 +185,6 @@ def test_children_do_not_depend_on_frames(fps, substeps):
             np.testing.assert_allclose(given, value, rtol=0, atol=1e-12)
 
 
-def test_rockets_of_rockets_end_at_their_generation():
-    """With `into`, three at each death, generations of 3 s / 10 end after the second: 1, 3, 9, none."""
-    emit = {"count": 1, "rate": 0, "life": 0.3, "set": {"position": [0, 0, 0]}}
-    count = {"type": "set", "from": "sky", "set": {"radius": {"expr": "generation"}}}
-    for seconds, number, generation in ((0.2, 1, 0), (0.5, 3, 1), (0.8, 9, 2), (1.1, 0, 3)):
-        found = children(
-            {"from": "sky", "when": "death", "count": 3, "life": 0.3, "into": "sky", "generations": 2},
-            (),
-            emit,
-            10,
-            seconds=seconds,
-            nodes={"count": count},
-            show=("count",),
-            source="sky",
-        )
-        assert found["radius"].tolist() == [generation] * number
-
-
 def test_spawn_hears_the_surfaces_that_it_names():
     """Of two spawns on two surfaces each is called by its own; in a corner both are, and the hits are two."""
     wall = {"type": "bounce_plane", "id": "wall", "normal": [1, 0, 0], "point": [-1, 0, 0]}
@@ -223,8 +205,9 @@ def test_children_live_as_long_as_they_are_given():
     assert [len(particles(own, frame, "it")["position"]) for frame in (12, 13)] == [1, 0]
     two = document({"when": "death"}, emit=FALL | {"life": 0.3})
     del two["nodes"]["it"]["life"]
-    counts = [len(particles(two, frame, "it")["position"]) for frame in (7, 9, 15, 16)]
-    assert counts == [0, 1, 1, 0]
+    for inherit in (["color"], ["life"]):
+        two["nodes"]["it"]["inherit"] = inherit
+        assert [len(particles(two, frame, "it")["position"]) for frame in (7, 9, 15, 16)] == [0, 1, 1, 0]
 
 
 def test_children_of_two_emitters_start_at_their_own_parents():
@@ -237,37 +220,6 @@ def test_children_of_two_emitters_start_at_their_own_parents():
         seconds=0,
     )
     assert sorted(found["position"].tolist()) == [[0, 1, 0], [5, 5, 5]] and sorted(found["color"][:, 0].tolist()) == [1, 7]
-
-
-def test_inherited_values_are_the_parents_own():
-    """A radius that is a tenth of the mass stays the parent's where the child has another mass."""
-    emit = {"count": 1, "rate": 0, "set": {"position": [1, 2, 3], "mass": 2, "radius": {"expr": "mass / 10"}}}
-    show = {"show": {"type": "set", "from": "it", "set": {"color": {"expr": "vec(radius, mass, rest_position.y)"}}}}
-    found = children({"when": "birth", "set": {"mass": 5, "position": {"in_box": {}}}}, emit=emit, nodes=show, show=("show",))
-    np.testing.assert_allclose(found["color"], [[0.2, 5, 2]])
-
-
-def test_children_know_of_the_lives_of_their_parents():
-    """parent.lives counts the lives before the one that ended; their own lives are none."""
-    show = {"show": {"type": "set", "from": "it", "set": {"color": {"expr": "vec(radius, lives, 0)"}}}}
-    found = children(
-        {"when": "death", "set": {"radius": {"expr": "parent.lives"}}},
-        [DRIFT, {"type": "recycle"}],
-        FALL | {"life": 0.3},
-        nodes=show,
-        show=("show",),
-    )
-    assert found["color"][:, :2].tolist() == [[0, 0], [1, 0], [2, 0]]
-
-
-def test_own_attribute_of_children_reads_a_parent_among_themselves():
-    """Where children join their parents, what they read of them is stored."""
-    emit = {"count": 5, "rate": 0, "life": 0.1, "set": {"mass": {"rand": [1, 2]}}}
-    spawn = {"from": "sky", "when": "death", "into": "sky", "set": {"heat": {"expr": "parent.mass * 2"}}}
-    own = {"heat": {"type": "float", "default": 0}}
-    show = {"show": {"type": "set", "from": "sky", "set": {"radius": {"expr": "heat"}, "opacity": {"expr": "mass"}}}}
-    found = children(spawn, (), emit, nodes=show, show=("show",), source="sky", attributes=own)
-    assert len(found["heat"]) == 5 and found["radius"].tolist() == (found["opacity"] * 2).tolist()
 
 
 def test_paper_scheme_tells_of_hits_as_steps_end():
@@ -284,3 +236,13 @@ def test_paper_scheme_tells_of_hits_as_steps_end():
     )
     found = made.simulate(25)
     assert found["it"]["birth"].tolist() == [0.5] and found["sky"]["radius"].tolist() == [1.0]
+
+
+@pytest.mark.parametrize("substeps", [1, 2])
+def test_hit_at_the_start_of_a_step_is_told_once(substeps):
+    """What sticks to the floor and is thrown at it as each step starts hits it once in each step."""
+    ops = [{"type": "set", "when": "step", "set": {"velocity": [0, -2, 0]}}, FLOOR | {"response": "stick"}]
+    emit = FALL | {"set": {"position": [0, 0.99, 0]}}
+    found = children({"when": "hit"}, ops, emit, fps=20, substeps=substeps)["birth"]
+    step = 0.05 / substeps
+    np.testing.assert_allclose(found, [0.495, *(0.5 + step * np.arange(10 * substeps))], rtol=0, atol=1e-12)
