@@ -9,6 +9,7 @@ from typing import Any
 from graphfx.cli.node_docs import parameter_data, parameter_lines, parameter_words
 from graphfx.errors import GraphfxError
 from graphfx.graph.check_document import read_graph
+from graphfx.graph.check_streams import walk
 from graphfx.graph.checking import Checking
 from graphfx.graph.document import document_of, load_document
 from graphfx.graph.format import canonical
@@ -85,11 +86,15 @@ def group_sample(group: Group) -> dict[str, Any]:
     graph = group.graph
     nodes: dict[str, Any] = {}
     source = {"type": "emit", "rate": 200, "life": 1.5, "set": {"position": {"in_sphere": {"radius": 1}}, "velocity": [0, 1, 0]}}
+    taken = "source"
     if graph.inputs:
         nodes["source"] = source
-    nodes["made"] = {"type": group.name, **({"inputs": dict.fromkeys(graph.inputs, "source")} if graph.inputs else {})}
+    if any(entry.when == "hit" for entry in walk(graph)):
+        taken, floor = "fall", {"type": "bounce_plane", "point": [0, -1, 0]}
+        nodes["fall"] = {"type": "stack", "from": "source", "ops": [{"type": "gravity"}, floor]}
+    nodes["made"] = {"type": group.name, **({"inputs": dict.fromkeys(graph.inputs, taken)} if graph.inputs else {})}
     if len(graph.inputs) == 1:
-        nodes["made"] = {"type": group.name, "from": "source"}
+        nodes["made"] = {"type": group.name, "from": taken}
     seen = ["made"] if len(graph.outputs) == 1 else [f"made.{port}" for port in graph.outputs]
     nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
     nodes["frames"] = {"type": "image", "from": seen, "camera": "view", "size": [640, 360]}

@@ -124,8 +124,8 @@ class Lives:
         if "fate" not in by_place:
             return unmoved
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
-        told = (by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface"))
-        return Ends(*told, hit)
+        told = [by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface")]
+        return Ends(told[0], told[1], told[2], told[3], hit)
 
     def _tell_hits(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray, ends: Ends) -> None:
         """Tell each spawn of the hits of the surfaces to which it listens."""

@@ -41,7 +41,9 @@ class NodeReader:
         """Return one node, or one operator of `stack`; where its type is wrong it has neither type nor group."""
         entry = Entry(name, place, path, item.location)
         if not item.is_object:
-            self.checking.mismatch(item, path, "a node should be an object with a \"type\"")
+            known = item.is_text and (item.value in self.checking.library or item.value in self.graph.use)
+            self.checking.mismatch(item, path, "a node should be an object with a \"type\""
+                                   + (f': {{"type": "{item.value}"}}' if known else ""))
             return entry
         if not self._type(entry, item, bool(stack)):
             entry.node_type = entry.group = None

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking, listed, nearest
 from graphfx.graph.items import Item
 from graphfx.graph.model import Graph
-from graphfx.graph.names import CONDITIONS
+from graphfx.graph.names import CONDITIONS, ID
 from graphfx.graph.scope import Scope
 from graphfx.graph.values import Call, Expression, Literal, Value, parts_of
 from graphfx.node import Parameter
 
 _ONLY = Parameter("only", "bool", None, doc="Particles that it acts on.")
 _JOINED = {"all": "and", "any": "or"}
+_MEANT = {"and": "all", "or": "any"}
 
 
 def is_selector(tree: Any) -> bool:
@@ -43,6 +45,11 @@ class ConditionReader:
         if item.is_text:
             return Literal("selector", item.location, path, "", item.value)
         found = [name for name, _ in item.entries() if name in CONDITIONS]
+        joining = next((word for word, _ in item.entries() if word in _MEANT), "")
+        if joining and not found:
+            self.checking.complain(item.key_location(joining), f"{path}.{joining}",
+                                   f'conditions are joined by "{_MEANT[joining]}": {{"{_MEANT[joining]}": [...]}}')
+            return None
         if not found:
             return self.reader.read(item, _ONLY, scope, key)
         if len(list(item.entries())) > 1:
@@ -52,6 +59,9 @@ class ConditionReader:
             return None
         name = found[0]
         inner = item.value[name]
+        if name == "not" and inner.is_list:
+            self.checking.mismatch(inner, f"{path}.not", "not takes one condition; write {\"not\": {\"any\": [...]}} for several")
+            return None
         if name == "not":
             part = self._read(inner, scope, f"{key}.not")
             return None if part is None else Call("not", (part,))
@@ -75,7 +85,9 @@ def check_condition(checking: Checking, graph: Graph, condition: Value | None) -
     known = [name for name, node in graph.nodes.items() if node.kind == "selectors"]
     for named in filter(is_selector, parts_of(condition)):
         node = graph.nodes.get(named.value)
-        if node is None:
+        if node is None and not ID.fullmatch(named.value):
+            message = f"a text is the id of a selector; a condition is written {{\"expr\": {json.dumps(named.value[:100])}}}"
+        elif node is None:
             message = f"there is no node '{named.value}'." + nearest(named.value, known)
         elif node.role and node.kind != "selectors":
             message = f"only should be the id of a selector; '{named.value}' is a node of type {node.type_name}"

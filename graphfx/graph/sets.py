@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from itertools import islice
 from types import MappingProxyType
 
-from graphfx.errors import suggestion
+from graphfx.errors import Location, suggestion
 from graphfx.graph.check_values import ValueReader
 from graphfx.graph.checking import Checking, listed
 from graphfx.graph.dependence import in_order
@@ -14,8 +14,8 @@ from graphfx.graph.items import Item
 from graphfx.graph.model import Entry
 from graphfx.graph.names import TAIL, WORD
 from graphfx.graph.scope import Scope
-from graphfx.graph.values import Value
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, Parameter
+from graphfx.graph.values import Node, Value
+from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, OTHER_NAMES, Attribute, NodeType, Parameter
 
 _COUNTED = ("hits", "lives", "generation")
 
@@ -79,4 +79,12 @@ class AttributeReader:
                 value = self.reader.read(given, wanted_of(name, scope.own), scope, f"set.{name}")
                 if value is not None:
                     sets[name] = value
+                if isinstance(value, Node) and value.node_type and name in value.node_type.results[1:]:
+                    self._beside(location, at, name, value.node_type)
         entry.sets = in_order(self.checking, entry, sets, item)
+
+    def _beside(self, location: Location, path: str, name: str, node_type: NodeType) -> None:
+        """Complain of a value whose place is given where one of its further results was meant."""
+        self.checking.complain(location, path, f"{node_type.name} gives a {node_type.results[0]} here, not a {name}; leave "
+                               f"'{name}' out, as it comes with the position, or name the value under \"values\" and write "
+                               f'{{"expr": "spot.{name}"}}')

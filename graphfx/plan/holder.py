@@ -8,7 +8,7 @@ from typing import Any
 
 from graphfx.graph.flat import Cluster, FlatNode
 from graphfx.graph.names import MOMENTS
-from graphfx.graph.values import Call, Expression, Literal, Name, Node, Random, Value, children
+from graphfx.graph.values import Call, Expression, Literal, Member, Name, Node, Random, Value, children
 from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, Attribute
 from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, rate_of
 from graphfx.plan.sources import Sources
@@ -42,6 +42,21 @@ def draws_in(tree: Any) -> bool:
     scoped = tree.per in ("life", "particle", "hit", "frame") or getattr(tree, "vary", 0.0) > 0 if own else False
     reads = isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
     return bool(scoped) or reads or any(draws_in(part) for part in children(tree))
+
+
+def _beside_position(maker: FlatNode, name: str) -> Member | None:
+    """Return the normal or the tangent that comes with a place on a mesh, where the position is one."""
+    found: list[Node] = []
+    waiting: list[Any] = [maker.sets.get("position")] if name in ("normal", "tangent") else []
+    while waiting:
+        tree = waiting.pop()
+        if isinstance(tree, Node) and tree.node_type is not None and name in tree.node_type.results:
+            found += [tree] if tree not in found else []
+        waiting += children(tree)
+    if len(found) != 1:
+        return None
+    index = found[0].node_type.results.index(name)  # type: ignore[union-attr]
+    return Member("vec3", found[0].location, found[0].path, "", found[0], index)
 
 
 def _draws(tree: Any) -> bool:
@@ -113,6 +128,9 @@ class Holder:
             return maker.arguments["life"]
         if name in maker.sets:
             return maker.sets[name]
+        beside = _beside_position(maker, name)
+        if beside is not None:
+            return beside
         attribute = self.table[name]
         if name == "life" and maker.node_type.role == "emit":
             return maker.arguments["life"]

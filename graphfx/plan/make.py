@@ -147,7 +147,7 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     sources = Sources(flat, schedule)
     images = [_image(flat.nodes[path], sources) for path in schedule.order if flat.nodes[path].node_type.role == "image"]
     holders = find_holders(sources)
-    check_names(holders)
+    check_names(holders, flat)
     planner = _Planner(flat, images, holders, prune)
     emitters = {path: planner.emitter(path) for path in reversed(holders)}
     return Plan(flat, schedule, {path: emitters[path] for path in holders}, images)

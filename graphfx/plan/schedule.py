@@ -8,7 +8,7 @@ from typing import Any
 
 import networkx
 
-from graphfx.errors import GraphError, Problem
+from graphfx.errors import GraphError, Location, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal, children
 from graphfx.plan.evaluate import holds
@@ -57,7 +57,8 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
         edges.add_edges_from((source, path) for source in (*through[path], *node.references.values(), *_meshes(node)))
     outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
     if not outputs:
-        raise GraphError(Problem("the graph has no output: give it an enabled node of type 'image'", path="nodes"))
+        message = "the graph has no output: give it an enabled node of type 'image'"
+        raise GraphError(Problem(message, Location(flat.file), "nodes"))
     needed = _needed(flat, edges, outputs, dropped) if prune else set(flat.nodes)
     for path in flat.nodes:
         if path not in needed and path not in dropped:

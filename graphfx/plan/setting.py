@@ -55,6 +55,7 @@ class Setting:
         before = {name: inside.call(basic.copy_vector, self.column(name), name=f"{name} before") for name in moved}
         self._give(inside, names, live)
         for name, old in before.items():
+            assert self.resting is not None
             differs = inside.call(events.differs, old, self.column(name), name="moved")
             context = self.builder.under(self.builder.program.context)
             context.call(basic.but_not, self.resting, differs, into=self.resting)

@@ -6,10 +6,12 @@ from collections.abc import Iterator, Mapping
 
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.values import Literal
 from graphfx.motion.probe import carries
-from graphfx.node import DERIVED_ATTRIBUTES, NUMERIC_TYPES, NodeType
+from graphfx.node import DERIVED_ATTRIBUTES, INFINITY, NUMERIC_TYPES, NodeType
 from graphfx.node.declare import RESPONSE
-from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, names_in
+from graphfx.plan.hits import response_of
+from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of, names_in
 from graphfx.plan.liveness import values_of
 from graphfx.plan.values import node_function
 
@@ -96,9 +98,10 @@ def _carries(declared: NodeType) -> bool:
     return carries(declared.function, declared.arguments, function.arguments, declared.writes)
 
 
-def check_names(holders: Mapping[str, Holder]) -> None:
+def check_names(holders: Mapping[str, Holder], flat: FlatGraph) -> None:
     """Raise GraphError where a value reads what the particles that reach it do not have: a cluster of another emitter."""
     problems = []
+    roles = {node.node_type.role for node in flat.nodes.values()}
     for holder in holders.values():
         known = {*holder.table, *DERIVED_ATTRIBUTES, *holder.clusters}
         for node in (*holder.operators, *holder.spawns):
@@ -107,7 +110,7 @@ def check_names(holders: Mapping[str, Holder]) -> None:
                     if "." not in name:
                         whose = f"the particles of '{holder.path}' have no '{name}'; if it is a cluster, give it to their emitter"
                         problems.append(Problem(whose, value.location or node.location, value.path))
-        problems += _orphans(holder)
+        problems += [*_orphans(holder), *_unheard(holder, roles)]
     if problems:
         raise GraphError(problems)
 
@@ -121,3 +124,22 @@ def _orphans(holder: Holder) -> Iterator[Problem]:
             node.location,
             f"nodes.{node.path}",
         )
+
+
+def _unheard(holder: Holder, roles: set[str]) -> Iterator[Problem]:
+    """Yield what waits for events that cannot be: hits where nothing is met, deaths of what lives for ever.
+
+    `roles` are those of all nodes of the graph, switched off ones too: what could be switched on is no mistake.
+    """
+    life = holder.value("life")
+    immortal = not holder.varies("life") and isinstance(life, Literal) and life.value == INFINITY
+    immortal &= not ({"kill", "recycle"} & roles or any(response_of(node) == "die" for node in holder.of_role("surface")))
+    for node in (*holder.operators, *holder.spawns):
+        moment = moment_of(node) if node.node_type.role in (*SETTING_ROLES, *ENDING_ROLES, "spawn") else ""
+        if moment == "hit" and "surface" not in roles:
+            what = f"the particles of '{holder.path}' meet no surface; put one such as bounce_plane into their stack"
+        elif moment == "death" and immortal:
+            what = f"the particles of '{holder.path}' never die; give them a life, or a kill"
+        else:
+            continue
+        yield Problem(f"{node.node_type.name} waits for a {moment}, and {what}", node.location, f"nodes.{node.path}")

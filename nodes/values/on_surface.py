@@ -3,7 +3,8 @@
     A + (B - A) u + (C - A) v,  u + v <= 1
 
 With the point come the normal of the face and its up-most tangent, the tangent that points most nearly up; on a
-horizontal face that is +x. [Sims 1990, 3.1 and 5.3]
+horizontal face that is +x. Where it gives the position, they are the particle's `normal` and `tangent`; for more of
+them, name the value, `"values": {"spot": {"on_surface": ...}}`, and read `spot.normal`. [Sims 1990, 3.1 and 5.3]
 
 Also called: scatter on a surface.
 """

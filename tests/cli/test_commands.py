@@ -50,7 +50,8 @@ def test_check_goes_through_all_graphs(invoke, folder: Path) -> None:
 def test_check_finds_what_only_planning_shows(invoke, folder: Path) -> None:
     """A graph that would write nothing is wrong."""
     (folder / "mute.json").write_text('{"graphfx": 1, "nodes": {"a": {"type": "emit"}}}')
-    assert invoke("check", "mute.json") == (1, "", "nodes: the graph has no output: give it an enabled node of type 'image'\n")
+    said = "mute.json: nodes: the graph has no output: give it an enabled node of type 'image'\n"
+    assert invoke("check", "mute.json") == (1, "", said)
 
 
 def test_format(invoke, folder: Path) -> None:

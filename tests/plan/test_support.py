@@ -114,3 +114,15 @@ def test_names_that_particles_do_not_have_are_refused():
     """A name that no attribute or cluster of the particles bears is told with whose particles those are."""
     with pytest.raises(GraphError, match="the particles of 'sky' have no 'id'; if it is a cluster, give it to their emitter"):
         plan([{"type": "damp", "damping": {"expr": "id * 0.1"}}])
+
+
+UNHEARD = {"hit": "meet no surface", "death": "never die"}
+
+
+@pytest.mark.parametrize("moment", UNHEARD)
+def test_what_waits_for_what_cannot_be_is_told(moment):
+    """Hits where there is no surface, and deaths of what lives for ever, are told at who waits; not where a switch is off."""
+    operator = {"type": "set", "when": moment, "set": {"radius": 1}}
+    with pytest.raises(GraphError, match=f"set waits for a {moment}, and the particles of 'sky' {UNHEARD[moment]}"):
+        plan([operator])
+    plan([operator, {"type": "bounce_plane", "enabled": False}, {"type": "kill", "enabled": False}])
