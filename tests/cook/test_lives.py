@@ -72,12 +72,15 @@ def test_kill_acts_as_a_step_starts(fps, substeps):
 def test_kill_at_a_frame_ends_with_it():
     """Who is killed as a frame ends is not there in that frame, and what it leaves is."""
     op = {"type": "kill", "when": "frame", "only": {"expr": "time > 0.3"}}
-    spark = {"spark": {"type": "spawn", "from": "act", "when": "death"}}
+    spark = {
+        "born": {"type": "spawn", "from": "act", "when": "death"},
+        "spark": {"type": "set", "from": "born", "set": {"radius": {"expr": "time"}}},
+    }
     found = effect(document([op], nodes=spark, image={"from": ["act", "spark"]}))
     for frame, (whole, left) in {8: (1, 0), 9: (0, 1), 10: (0, 1)}.items():
         at = found.simulate(frame)
-        assert (len(at["sky"]["position"]), len(at["spark"]["position"])) == (whole, left)
-    assert ends(found) == [8 / 24] == last(found, "spark").get("birth", np.array([8 / 24])).tolist()
+        assert (len(at["sky"]["position"]), at["born"]["radius"].tolist()) == (whole, [(frame - 1) / 24] * left)
+    assert ends(found) == [8 / 24]
 
 
 def test_what_dies_is_drawn_for_its_share_of_the_shutter():
@@ -93,7 +96,8 @@ def test_what_dies_is_drawn_for_its_share_of_the_shutter():
         list(simulation.frames(2))
         opening = {0.875: 0.375, 1.0: 0.5}[time]
         made = streaks_of(Chosen(simulation.particles["sky"]), {}, time, opening)
-        np.testing.assert_allclose(made.share, share, atol=1e-6)
+        np.testing.assert_allclose(made.share, [share], atol=1e-6)
+        assert len(made.share) == 1
 
 
 def test_what_sticks_stays_and_what_slides_goes_on():

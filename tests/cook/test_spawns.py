@@ -167,6 +167,13 @@ def test_one_parent_alone_has_the_children_that_it_has_among_many():
     }
 
 
+def test_children_of_a_frame_are_in_order_of_time():
+    """Within a frame what is born earlier comes first, whoever its parent is, and copies follow one another."""
+    found = children({"when": "death", "count": 2}, emit=CLOUD, fps=1)
+    assert (np.diff(found["birth"]) >= 0).all() and np.array_equal(found["birth"][::2], found["birth"][1::2])
+    assert len(found["birth"]) == 800
+
+
 def test_children_do_not_depend_on_another_spawn():
     """A spawn put before or after another changes nothing of what that makes."""
     other = {"other": {"type": "spawn", "from": "sky", "when": "birth", "count": 2, "life": 0.1}}

@@ -18,7 +18,9 @@ def trail(ops=(GRAVITY,), emit=THROW, fps=24, substeps=1, seconds=1.0, spawn=Non
     last = round(fps * seconds) + 1
     own = {"dust": {"type": "spawn", "from": "act", "rate": 100, "life": 9, "set": {"velocity": [0, 0, 0]}, **(spawn or {})}}
     time = {"fps": fps, "substeps": substeps, "frames": [1, last], "precision": 64} | time
-    found = effect(graph(list(ops), emit, time, {"from": "dust"}, {**(nodes or {}), **own})).simulate(last)["dust"]
+    found = effect(graph(list(ops), emit, time, {"from": ["dust", *(nodes or {})]}, {**(nodes or {}), **own})).simulate(last)[
+        "dust"
+    ]
     order = np.argsort(found["birth"], kind="stable")
     return found["birth"][order], found["position"][order]
 
