@@ -37,7 +37,7 @@ def check_files(plan: Plan, out: Path, frames: Iterable[int]) -> None:
 
 def _problem(image: ImagePlan, message: str) -> Problem:
     value = image.node.arguments["file"]
-    return Problem(message, value.location, value.path)
+    return Problem(message, value.location if value.location.line else image.node.location, value.path)
 
 
 def _fault(names: list[str], out: Path) -> str:

@@ -54,11 +54,12 @@ class Lives:
             if not len(rows):
                 return
             rows, begin, begun = self._turn(particles, interval, rows, begin, begun)
-        node = particles.plan.node
-        message = (
-            f"in frame {interval.frame} particles begin new lives, or hit something, more than {MOST_TURNS:,} times; "
-            "give them a longer life, or the surfaces a higher event_speed"
-        )
+        recycles = particles.plan.holder.of_role("recycle")
+        node = recycles[0] if recycles else particles.plan.node
+        what, way = "hit something", "give the surfaces a higher event_speed"
+        if recycles:
+            what, way = "begin new lives", "give them a longer life, or the surfaces a higher event_speed"
+        message = f"in frame {interval.frame} particles {what} more than {MOST_TURNS:,} times; {way}"
         raise CookError(Problem(message, node.location, f"nodes.{node.path}"))
 
     def _turn(
@@ -87,7 +88,7 @@ class Lives:
             particles.note_deaths(rows[over], interval.start + when[over])
             going.append(rows[again])
             then.append(when[again])
-            steps.append(np.zeros(np.count_nonzero(again)))
+            steps.append(np.where(reborn, ends.begun, 0.0)[again])  # a condition is looked at once a step
         return np.concatenate(going), np.concatenate(then), np.concatenate(steps)
 
     def _run(

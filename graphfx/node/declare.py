@@ -16,7 +16,7 @@ from graphfx.node.signature import (
     read_parameter,
     result_types,
 )
-from graphfx.node.source import line_of_argument, wrong_return
+from graphfx.node.source import line_of_argument, stray_name, wrong_return
 from graphfx.node.types import ATTRIBUTES, DERIVED_ATTRIBUTES, RESERVED, WAY, NodeType, Parameter
 
 RESPONSE = (
@@ -54,6 +54,10 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     doc = inspect.getdoc(inspect.getmodule(function)) or ""
     if not doc:
         raise fail("a node needs a docstring at the top of its file: its formula, and its source")
+    stray = "" if language or role == "geometry" else stray_name(function)
+    if stray:
+        raise fail(f"a function of particles cannot use '{stray}'; it has graphfx.math, and random numbers come as the "
+                   "argument `draw`")
     signature = inspect.signature(function)
     known = (*RESERVED, *WAY) if role == "surface" else RESERVED
     reads: list[str] = []

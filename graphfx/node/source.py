@@ -6,6 +6,7 @@ import ast
 import inspect
 import textwrap
 from collections.abc import Callable, Iterator
+from types import ModuleType
 from typing import Any
 
 
@@ -26,6 +27,19 @@ def line_of_argument(function: Callable[..., Any], name: str) -> int:
         return 0
     tree, first = found
     return next((first + argument.lineno - 1 for argument in tree.args.args if argument.arg == name), 0)
+
+
+_OUTSIDE = ("random", "secrets", "time", "os", "sys", "uuid", "datetime", "pathlib")
+_ACTING = ("print", "input", "open", "exec", "eval")
+
+
+def stray_name(function: Callable[..., Any]) -> str:
+    """Return what a function names that reaches out of it, or ''; its result would not follow from its arguments alone."""
+    for name in function.__code__.co_names:
+        given = function.__globals__.get(name)
+        if (isinstance(given, ModuleType) and given.__name__ in _OUTSIDE) or (given is None and name in _ACTING):
+            return name
+    return ""
 
 
 def wrong_return(function: Callable[..., Any], count: int) -> tuple[str, int]:

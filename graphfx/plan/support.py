@@ -109,7 +109,7 @@ def check_names(holders: Mapping[str, Holder], flat: FlatGraph) -> None:
                 for name in sorted(names_in(value) - known - (node.sets.keys() if node in holder.spawns else set())):
                     if "." not in name:
                         whose = f"the particles of '{holder.path}' have no '{name}'; if it is a cluster, give it to their emitter"
-                        problems.append(Problem(whose, value.location or node.location, value.path))
+                        problems.append(Problem(whose, value.location if value.location.line else node.location, value.path))
         problems += [*_orphans(holder), *_unheard(holder, roles)]
     if problems:
         raise GraphError(problems)

@@ -239,3 +239,17 @@ def test_words_of_the_language_are_told(invoke) -> None:
     text = invoke("nodes", "expr")[1]
     assert all(f"  {function.spelling}" in text and function.doc in text for function in FUNCTIONS.values())
     assert invoke("nodes", "pscale")[1].startswith("radius [m] ") and invoke("nodes", "Cd")[1].startswith("color ")
+
+
+def test_check_tells_what_cook_would_refuse(invoke, tmp_path: Path) -> None:
+    """Names of files, sizes and meshes are checked before any work: all of it at once, each at its place."""
+    (tmp_path / "much.json").write_text("""{"graphfx": 1, "nodes": {
+      "text": {"type": "mesh_text", "text": "  "},
+      "sky": {"type": "emit", "rate": 1e11, "set": {"position": {"on_surface": {"mesh": "text"}}}},
+      "view": {"type": "camera"},
+      "first": {"type": "image", "from": "sky", "camera": "view"},
+      "second": {"type": "image", "from": "sky", "camera": "view"}}}""")
+    code, out, err = invoke("check", str(tmp_path / "much.json"))
+    assert (code, out) == (1, "")
+    places = [line.removeprefix(str(tmp_path)).split(": ")[0] for line in err.splitlines() if not line.startswith(" ")]
+    assert sorted(places) == ["/much.json:2:15", "/much.json:3:14", "/much.json:6:17"]

@@ -35,6 +35,7 @@ def command(context: click.Context, graphs: tuple[str, ...], library: tuple[str,
 
 def problems_of(graph: str, library: tuple[str, ...]) -> list[Problem]:
     """Return what is wrong with a graph: first with the document, then, if it can stand alone, with planning it."""
+    from graphfx.cook.checks import problems_before
     from graphfx.graph.check import check
     from graphfx.graph.document import load_document
     from graphfx.graph.flatten import flatten
@@ -50,7 +51,6 @@ def problems_of(graph: str, library: tuple[str, ...]) -> list[Problem]:
     if any("default" not in parameter for parameter in data.get("params", {}).values()):
         return []
     try:
-        make_plan(flatten(document, nodes))
+        return problems_before(make_plan(flatten(document, nodes)))
     except GraphfxError as error:
         return error.problems
-    return []

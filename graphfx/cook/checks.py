@@ -1,0 +1,38 @@
+"""What can be told before a cook: all that would keep it from beginning."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from graphfx.cook.files import check_files
+from graphfx.cook.limits import CookLimits, check_limits
+from graphfx.cook.meshes import Meshes
+from graphfx.errors import GraphfxError, Problem
+from graphfx.plan.make import Plan
+
+
+def problems_before(plan: Plan) -> list[Problem]:
+    """Return what is wrong with the names of a plan's files, with its size, and with its meshes."""
+    time = plan.flat.time
+    checks: list[Callable[[], None]] = [
+        lambda: check_files(plan, Path(), range(time.first, min(time.first + 1, time.last) + 1)),
+        lambda: check_limits(plan, CookLimits()),
+        lambda: _check_meshes(plan),
+    ]
+    problems: list[Problem] = []
+    for check in checks:
+        try:
+            check()
+        except GraphfxError as error:
+            problems += error.problems
+    return problems
+
+
+def _check_meshes(plan: Plan) -> None:
+    meshes = Meshes(plan.flat)
+    for emitter in plan.emitters.values():
+        for made in emitter.made_programs:
+            meshes.prepare(made)
+        if "vertices" in emitter.node.references:
+            meshes.vertices(emitter.node.references["vertices"])
