@@ -101,6 +101,9 @@ def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> 
         for name in (*holder.table, "age"):
             if name not in DERIVED_ATTRIBUTES or name == "age":
                 readers.setdefault(name, "nothing")
+        for value in (value for node in holder.of_role(*SETTING_ROLES) for value in values_of(node)):
+            for name in names_in(value):
+                readers.setdefault(name, "nothing")
     found = Attributes(read=frozenset(name for name, reader in readers.items() if reader != "nothing"))
     for name, attribute in holder.table.items():
         if name == "life" or name in DERIVED_ATTRIBUTES:

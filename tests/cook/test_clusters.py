@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.plan.make import make_plan
+
 from .effects import effect, graph
 
 BOX = {"in_box": {"min": [-3, -1, -1], "max": [3, 1, 1]}}
@@ -105,3 +107,11 @@ def test_one_cluster_and_more_clusters_than_particles():
         cloud({"radius": {"expr": "a"}}, clusters={"a": {"count": 1, "by": "nearest"}}).get("radius", np.zeros(1)).tolist()
     ) == {0.0}
     assert len(set(cloud({"radius": {"expr": "a"}}, 9, {"a": {"count": 1000, "by": "nearest"}})["radius"].tolist())) == 9
+
+
+def test_nobody_need_read_what_a_cluster_sets():
+    """With nothing left out, a value per cluster of an attribute that nobody reads is planned as well."""
+    fade = {"type": "fade", "set": {"mass": {"rand": [0, 5], "per": "turn"}}}
+    flat = effect(graph([{"type": "gravity"}, fade], {"clusters": {"turn": {"count": 2}}})).flat
+    assert "turn" in make_plan(flat, prune=False).emitters["sky"].attributes.columns
+    assert "turn" not in make_plan(flat).emitters["sky"].attributes.columns

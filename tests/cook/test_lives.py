@@ -83,6 +83,17 @@ def test_kill_at_a_frame_ends_with_it():
     assert ends(found) == [8 / 24]
 
 
+def test_frames_end_for_those_whom_a_frame_has_killed_to_life():
+    """What is set each frame is set for what is born as the frame ends, in every frame."""
+    nodes = {
+        "born": {"type": "spawn", "from": "act", "when": "death", "life": 9},
+        "spark": {"type": "set", "from": "born", "set": {"radius": {"expr": "time"}}},
+    }
+    kill = {"type": "kill", "when": "frame", "only": {"expr": "age > 0.1"}}
+    found = effect(document([kill], MANY | {"life": 9}, nodes=nodes, image={"from": ["act", "spark"]})).simulate(9)["born"]
+    assert len(found["radius"]) > 30 and set(found["radius"].tolist()) == {8 / 24}
+
+
 def test_what_dies_is_drawn_for_its_share_of_the_shutter():
     """Dying 1/4 of the way through the shutter, or born 1/4 before its end, it is drawn with a quarter of its opacity."""
     for emit, ops, share in (
