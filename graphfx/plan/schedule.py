@@ -59,7 +59,7 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     if not outputs:
         message = "the graph has no output: give it an enabled node of type 'image'"
         raise GraphError(Problem(message, Location(flat.file), "nodes"))
-    needed = _needed(flat, edges, outputs, dropped) if prune else set(flat.nodes)
+    needed = _needed(flat, edges, outputs, dropped, through) if prune else set(flat.nodes)
     for path in flat.nodes:
         if path not in needed and path not in dropped:
             dropped[path] = "no output depends on it"
@@ -80,24 +80,45 @@ def _meshes(node: FlatNode) -> set[str]:
     return found
 
 
-def _needed(flat: FlatGraph, edges: networkx.DiGraph, outputs: list[str], dropped: dict[str, str]) -> set[str]:
-    """Return the nodes that the outputs depend on: those above them, and the spawns that add to one of these."""
+def _needed(
+    flat: FlatGraph, edges: networkx.DiGraph, outputs: list[str], dropped: dict[str, str], through: dict[str, tuple[str, ...]]
+) -> set[str]:
+    """Return the nodes that the outputs depend on: those above them, what else acts on the same particles, who adds to them."""
     needed: set[str] = set()
     waiting = list(outputs)
     while waiting:
         needed = needed.union(waiting, *(networkx.ancestors(edges, path) for path in waiting))
-        waiting = [
-            path
-            for path, node in flat.nodes.items()
-            if node.references.get("into") in needed and path not in needed and path not in dropped
-        ]
+        taken = _acting(flat, through, needed)
+        adding = [path for path, node in flat.nodes.items() if node.references.get("into") in needed]
+        waiting = [path for path in (*taken, *adding) if path not in needed and path not in dropped]
     return needed
 
 
+def _acting(flat: FlatGraph, through: dict[str, tuple[str, ...]], needed: set[str]) -> list[str]:
+    """Return the operators that act on particles of needed nodes: all stacks of an emitter act on the same particles."""
+    streams = networkx.DiGraph()
+    for path, sources in through.items():
+        if flat.nodes[path].node_type.kind in ("operators", "selectors"):
+            streams.add_edges_from((source, path) for source in sources)
+    makers = [path for path in needed if flat.nodes[path].node_type.kind == "emitters" and path in streams]
+    taken = set().union(*(networkx.descendants(streams, path) for path in makers))
+    return [path for path in flat.nodes if path in taken]
+
+
 def _pass_over(path: str, flat: FlatGraph, dropped: dict[str, str]) -> list[str]:
-    if path not in dropped:
-        return [path]
-    return [source for given in flat.nodes[path].sources for source in _pass_over(given, flat, dropped)]
+    """Return a node, or what stands for it where it was dropped: the nearest kept ones above, in order."""
+    kept: dict[str, None] = {}
+    waiting, seen = [path], set()
+    while waiting:
+        here = waiting.pop()
+        if here in seen:
+            continue
+        seen.add(here)
+        if here not in dropped:
+            kept[here] = None
+        else:
+            waiting += reversed(flat.nodes[here].sources)
+    return list(kept)
 
 
 def _idle(node: FlatNode, flat: FlatGraph, precision: int, prune: bool) -> str:

@@ -24,6 +24,11 @@ class Sources:
     schedule: Schedule
     _known: dict[str, dict[str, Value | None]] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        """Go through the nodes in order, so that no question goes deep."""
+        for path in self.schedule.order:
+            self.reaching(path)
+
     @property
     def paths(self) -> list[str]:
         """Return the nodes that hold particles, parents first."""

@@ -251,5 +251,6 @@ def test_check_tells_what_cook_would_refuse(invoke, tmp_path: Path) -> None:
       "second": {"type": "image", "from": "sky", "camera": "view"}}}""")
     code, out, err = invoke("check", str(tmp_path / "much.json"))
     assert (code, out) == (1, "")
-    places = [line.removeprefix(str(tmp_path)).lstrip("/").split(": ")[0] for line in err.splitlines() if not line.startswith(" ")]
+    told = [line.removeprefix(str(tmp_path)).lstrip("/") for line in err.splitlines() if not line.startswith(" ")]
+    places = [line.split(": ")[0] for line in told]
     assert sorted(places) == ["much.json:2:15", "much.json:3:14", "much.json:6:17"]

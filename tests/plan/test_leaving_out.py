@@ -123,7 +123,10 @@ def test_during_counts_the_preroll():
 
 
 def test_nodes_that_no_output_needs():
-    """Emitters, operators and cameras that no image depends on are dropped; a disabled image does not count."""
+    """Emitters with their operators, and cameras, that no image depends on are dropped; a disabled image does not count.
+
+    A stack that no image takes still acts on the particles of an emitter that one does take.
+    """
     nodes = {
         "idle": {"type": "emit"},
         "swirl": {"type": "vortex", "from": "idle"},
@@ -133,8 +136,8 @@ def test_nodes_that_no_output_needs():
     }
     made = plan(nodes=nodes)
     unread = "no output depends on it"
-    assert made.schedule.dropped == {"idle": unread, "swirl": unread, "after": unread, "far": unread, "second": "not enabled"}
-    assert list(made.emitters) == ["sky"] and made.emitters["sky"].operators == []
+    assert made.schedule.dropped == {"idle": unread, "swirl": unread, "far": unread, "second": "not enabled"}
+    assert list(made.emitters) == ["sky"] and [node.path for node in made.emitters["sky"].operators] == ["after"]
 
 
 def test_no_output_is_an_error():
@@ -229,3 +232,11 @@ def test_same_graph_same_plan(prune):
     }
     texts = [listing(make_plan(flatten(document_of(document), Library(library_roots())), prune=prune)) for _ in range(2)]
     assert texts[0] == texts[1] and "spiral" in texts[0]
+
+
+@pytest.mark.parametrize("rate", [[1, 0, 0], [0, 0, 0]])
+def test_stacks_may_be_long(rate):
+    """Thousands of operators, kept or dropped, are planned; nothing goes as deep as they are many."""
+    many = 2000
+    made = plan([{"type": "translate", "rate": rate}] * many)
+    assert len(made.emitters["sky"].operators) == (many if any(rate) else 0)
