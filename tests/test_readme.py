@@ -89,7 +89,7 @@ def test_layout_table_is_the_rule() -> None:
     source = (ROOT / "tests" / "test_imports.py").read_text(encoding="utf-8")
     engine = eval(re.search(r"ENGINE[^=]* = (\{.*?\n\})", source, re.DOTALL)[1])  # type: ignore[index]
     for name in ("authoring", "contract"):
-        engine[name] = eval(re.search(f'"{name}": (\{{.*?\}})', source)[1])  # type: ignore[index]
+        engine[name] = eval(re.search(rf'"{name}": (\{{.*?\}})', source)[1])  # type: ignore[index]
     told = {name: {part for part in parts.split(", ") if part != "nothing"} for name, parts in rows}
     assert {name: told[name] for name in engine} == engine
     assert (told["cook"], told["cli"]) == ({"all above"}, {"all"})

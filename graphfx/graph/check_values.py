@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from graphfx.errors import suggestion
-from graphfx.graph.checking import Checking, declared, listed, nearest, not_one_of, number, takes
+from graphfx.graph.checking import Checking, declared, listed, nearest, number, takes
 from graphfx.graph.expressions import parse
 from graphfx.graph.items import Item
 from graphfx.graph.literals import Literals, lane, wanted
@@ -266,14 +266,10 @@ class ValueReader:
             return None
         return Node(want.type or kind, item.location, path, _seed(scope, key), node_type, tuple(arguments), per)  # type: ignore[arg-type]
 
-    def _choice(self, item: Item, path: str, key: str, choices: tuple[str, ...], spelled: str = "") -> str:
+    def _choice(self, item: Item, path: str, key: str, choices: tuple[str, ...]) -> str:
         """Return one of a modifier's choices, the first by default, or '' after a complaint."""
         given = item.value.get(key)
-        if key == "per" and given is not None and given.is_text and given.value not in choices:
-            self.complain(given.location, f"{path}.per", not_one_of(given, spelled, choices),
-                          f'a cluster of the name is declared on an emit: "clusters": {{"{given.value[:40]}": {{"count": 60}}}}')
-            return ""
-        return choices[0] if given is None else self.checking.choice(given, f"{path}.{key}", spelled or key, choices)
+        return choices[0] if given is None else self.checking.choice(given, f"{path}.{key}", key, choices)
 
 
 def default_value(parameter: Parameter, path: str) -> Literal:

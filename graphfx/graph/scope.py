@@ -8,7 +8,7 @@ from itertools import islice
 from typing import Any
 
 from graphfx.errors import suggestion
-from graphfx.graph.checking import Checking, listed, nearest
+from graphfx.graph.checking import Checking, listed, nearest, not_one_of
 from graphfx.graph.functions import CONSTANTS
 from graphfx.graph.items import Item
 from graphfx.graph.literals import lane
@@ -88,7 +88,12 @@ class Scope:
         if item.is_text and self.groups_own.get(item.value) == "cluster":
             checking.complain(item.location, path, self.undeclared(item.value))
             return ""
-        return checking.choice(item, path, '"per"', (*SCOPES, *self.clusters))
+        known = (*SCOPES, *self.clusters)
+        if item.is_text and item.value not in known:
+            checking.complain(item.location, path, not_one_of(item, '"per"', known),
+                              f'a cluster is declared on an emit: "clusters": {{"{item.value[:40]}": {{"count": 60}}}}')
+            return ""
+        return checking.choice(item, path, '"per"', known)
 
     def members(self, word: str) -> dict[str, tuple[Any, str]]:
         """Return the results of a named value that has several, by their names."""
