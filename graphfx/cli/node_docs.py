@@ -62,6 +62,7 @@ def facts(node_type: NodeType) -> dict[str, str]:
         "writes": ", ".join(node_type.writes),
         "gives": ", ".join(node_type.result) if node_type.kind == "values" else "",
         "the_engine": treatment(node_type.role),
+        "runs": "one particle after another, since its function branches" if node_type.branches else "",
         "left_out_when": node_type.neutral,
         "exact_when": node_type.exact_if,
         "declared_in": from_here(node_type.location.file),
