@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import Particles, flagged, padded
+from graphfx.cook.particles import Particles, flagged, padded, repeated
 from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Occasion, Spawns
 from graphfx.errors import CookError, Problem
@@ -117,12 +117,9 @@ class Lives:
         }
         for name, type_ in HIT_TYPES.items():
             by_place[f"hit.{name}"] = tuple(zeros.copy() for _ in range(3 if type_ == "vec3" else 1))
-        known = made.program.loads.keys() | made.program.stores.keys()
-        by_place = {name: arrays for name, arrays in by_place.items() if name in known}
         self.programs.run(made, particles, interval, rows, by_place=by_place)
-        if "unfinished" in by_place:
-            particles.unfinished += int(by_place["unfinished"][0][:count].sum())
-        if "fate" not in by_place:
+        particles.unfinished += int(by_place["unfinished"][0][:count].sum())
+        if "fate" not in made.program.stores:
             return unmoved
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
         told = [by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface")]
@@ -145,8 +142,7 @@ class Lives:
         renewed = np.zeros(len(rows), bool)
         if made is not None:
             by_place = {"begin": (padded(when, real),), "renewed": (padded(np.zeros(len(rows)), real),)}
-            known = made.program.loads.keys() | made.program.stores.keys()
-            self.programs.run(made, particles, interval, rows, by_place={k: v for k, v in by_place.items() if k in known})
+            self.programs.run(made, particles, interval, rows, by_place=by_place)
             renewed = by_place["renewed"][0][: len(rows)] > 0
         self.spawns.at("death", particles, interval, Occasion(rows, when, np.zeros(len(rows)), {}))
         return renewed
@@ -171,7 +167,6 @@ class Lives:
                 until = np.clip(particles.death(rows) - interval.start, since, until)
             rate = padded(np.zeros(len(rows)), real)
             given: dict[str, Any] = {"begin": (padded(since, real),), "rate": (rate,)}
-            given = {name: arrays for name, arrays in given.items() if name in spawn.rate.program.loads or name == "rate"}
             self.programs.run(spawn.rate, particles, interval, rows, by_place=given)
             steady = np.where(rate > 0, rate, 0.0)[: len(rows)].astype(np.float64)
             self._leave(spawn, particles, interval, rows, since, until, steady)
@@ -194,8 +189,8 @@ class Lives:
         self.spawns.refuse(spawn, float(np.sum(made - done)))
         store.column(f"made {spawn.path}")[0][rows] = made
         counts = (np.floor(made) - np.floor(done)).astype(np.int64)
-        parents = np.repeat(np.arange(len(rows)), counts)
-        number = np.arange(len(parents)) - np.repeat(np.cumsum(counts) - counts, counts) + 1 + np.floor(done)[parents]
+        parents, copies = repeated(counts)
+        number = copies + 1 + np.floor(done)[parents]
         when = np.clip(since[parents] + (number - done[parents]) / rate[parents], since[parents], until[parents])
         begin, end = spawn.node.during or (-np.inf, np.inf)
         within = (interval.start + when >= begin) & (interval.start + when < end)

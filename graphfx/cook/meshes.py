@@ -11,7 +11,6 @@ from graphfx.geometry.demands import check_mesh, needs_tree
 from graphfx.geometry.mesh import Mesh, checked, transform
 from graphfx.geometry.tables import MeshTables
 from graphfx.graph.flat import FlatGraph, FlatNode
-from graphfx.graph.values import Literal
 from graphfx.node.declare import TRANSFORM
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import plain_value
@@ -95,8 +94,3 @@ class Meshes:
             found = plain_value(value)
             given[name] = int(found) if node.node_type.parameters[name].type == "int" else found
         return given
-
-
-def moves(node: FlatNode) -> bool:
-    """Return whether a mesh moves while the graph is cooked."""
-    return not all(isinstance(node.arguments[name], Literal) for name in STANDING)

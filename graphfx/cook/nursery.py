@@ -94,8 +94,7 @@ class Nursery:
         for name in particles.plan.holder.clusters:
             if f"number {name}" in made.program.loads and f"number {name}" not in given:
                 by_place[f"number {name}"] = (padded(self._numbers(particles, name, by_place, interval, len(rows)), real),)
-        wanted = {name: arrays for name, arrays in by_place.items() if name in made.program.loads}
-        self.programs.run(made, particles, interval, rows, by_place=wanted)
+        self.programs.run(made, particles, interval, rows, by_place=by_place)
         particles.put_tails(rows)
         particles.note_births(rows, times)
 
@@ -123,8 +122,7 @@ class Nursery:
     ) -> np.ndarray:
         """Return where the emitter's distribution puts particles, (count, 3)."""
         place = tuple(padded(np.zeros(count), self.programs.real) for _ in range(3))
-        wanted = {name: arrays for name, arrays in given.items() if name in made.program.loads}
-        self.programs.run(made, particles, interval, np.arange(count), by_place=wanted | {"position": place})
+        self.programs.run(made, particles, interval, np.arange(count), by_place=given | {"position": place})
         return np.stack([part[:count] for part in place], axis=1).astype(np.float64)
 
 

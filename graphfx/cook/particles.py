@@ -115,6 +115,12 @@ def flagged(rows: np.ndarray, count: int) -> np.ndarray:
     return flags
 
 
+def repeated(counts: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return for each of sum(counts) copies the place of its original, and its number among that one's copies."""
+    places = np.repeat(np.arange(len(counts)), counts)
+    return places, np.arange(len(places)) - np.repeat(np.cumsum(counts) - counts, counts)
+
+
 def blocks(count: int) -> int:
     """Return how many blocks hold so many rows."""
     return (count + BLOCK - 1) // BLOCK

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -46,15 +47,16 @@ class Programs:
         interval: Interval,
         listed: np.ndarray | None = None,
         excluded: np.ndarray | None = None,
-        by_place: dict[str, tuple[np.ndarray, ...]] | None = None,
+        by_place: Mapping[str, tuple[np.ndarray, ...]] | None = None,
         count: int | None = None,
-        at: float | None = None,
     ) -> np.ndarray:
         """Run a program over an interval, on all rows, the first `count`, or those listed; return the rows rejected.
 
-        Ages are those at the start of the interval, or at the time `at`.
+        Of `by_place` those arrays are taken that the program knows.
         """
-        program, store, by_place = made.program, particles.store, by_place or {}
+        program, store = made.program, particles.store
+        known = program.loads.keys() | program.stores.keys()
+        by_place = {name: arrays for name, arrays in (by_place or {}).items() if name in known}
         names = {name: ENGINE_COLUMNS.get(name, name) for name in (*program.loads, *program.stores) if name not in by_place}
         arrays = {name: store.arrays(stored) for name, stored in names.items() if stored in store.columns}
         job = Job(
@@ -64,7 +66,7 @@ class Programs:
             excluded,
             self.uniforms(made, interval),
             by_place,
-            interval.start if at is None else at,
+            interval.start,
         )
         return self.executor.run(program, job)
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.particles import Arrivals, Particles, padded
+from graphfx.cook.particles import Arrivals, Particles, padded, repeated
 from graphfx.cook.programs import Programs
 from graphfx.errors import LimitError, Problem
 from graphfx.math.random import key_of, spawned_id
@@ -68,9 +68,7 @@ class Spawns:
             "event": (padded(occasion.numbers, real),),
             "offspring": (offspring,),
         } | occasion.hit
-        made = spawn.offspring
-        wanted = {name: arrays for name, arrays in by_place.items() if name in made.program.loads or name == "offspring"}
-        self.programs.run(made, parents, interval, occasion.rows, by_place=wanted)
+        self.programs.run(spawn.offspring, parents, interval, occasion.rows, by_place=by_place)
         counts = self._counts(spawn, offspring[:count], parents, occasion.rows)
         if counts.any():
             self._send(spawn, parents, interval, occasion, counts)
@@ -104,8 +102,7 @@ class Spawns:
     def _send(
         self, spawn: SpawnPlan, parents: Particles, interval: Interval, occasion: Occasion, counts: np.ndarray
     ) -> None:
-        places = np.repeat(np.arange(len(counts)), counts)
-        copies = np.arange(len(places)) - np.repeat(np.cumsum(counts) - counts, counts)
+        places, copies = repeated(counts)
         rows = occasion.rows[places]
         home = self.particles[spawn.home]
         ids = parents.store.column("id")[0][rows]

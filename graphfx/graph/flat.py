@@ -55,6 +55,11 @@ class FlatNode:
     seed: str = ""
     """What keys its own random numbers: its path, or its `seed_key`."""
 
+    @property
+    def gives(self) -> tuple[str, ...]:
+        """Return the attributes that it gives new values: those of its `set`, and those that its type writes."""
+        return (*self.sets, *self.node_type.writes)
+
 
 @dataclass(frozen=True)
 class TimeSettings:

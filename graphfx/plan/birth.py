@@ -12,8 +12,8 @@ from graphfx.node import DERIVED_ATTRIBUTES
 from graphfx.plan.frame_program import FrameProgram, LazyClock
 from graphfx.plan.hits import HIT_TYPES
 from graphfx.plan.holder import Holder, moment_of
-from graphfx.plan.liveness import COLUMN_TYPES, Attributes
-from graphfx.plan.rates import NOUGHT, Scope
+from graphfx.plan.liveness import Attributes
+from graphfx.plan.rates import NOUGHT, Scope, lane_type
 from graphfx.plan.setting import Setting, as_column
 from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Operand, Uniform
@@ -78,7 +78,7 @@ class BirthWriter:
                 self.builder.store(name, copy)
 
     def _lane(self, name: str) -> str:
-        return COLUMN_TYPES.get(self.holder.table[name.removeprefix("tail.")].type, "vec3")
+        return lane_type(self.holder.table[name.removeprefix("tail.")].type)
 
     def _operand(self, name: str) -> Operand:
         """Return what a name means at birth."""

@@ -112,7 +112,7 @@ def _hears(node: FlatNode, surface: Mover) -> bool:
 
 def is_vital(node: FlatNode, attributes: Attributes) -> bool:
     """Return whether what a node sets may bring the end of a life nearer, or put it off."""
-    return "life" in attributes.columns and "life" in (*node.sets, *node.node_type.writes)
+    return "life" in attributes.columns and "life" in node.gives
 
 
 def response_of(node: FlatNode) -> str:

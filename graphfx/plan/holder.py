@@ -7,14 +7,12 @@ from functools import cached_property
 from typing import Any
 
 from graphfx.graph.flat import Cluster, FlatNode
-from graphfx.graph.names import MOMENTS
+from graphfx.graph.names import MOMENTS, SCOPES
 from graphfx.graph.values import Call, Expression, Literal, Member, Name, Node, Random, Value, children
-from graphfx.node import ATTRIBUTES, DERIVED_ATTRIBUTES, Attribute
+from graphfx.node import ATTRIBUTES, Attribute
 from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, rate_of
 from graphfx.plan.sources import Sources
 
-DRAW_SCOPES = ("life", "particle", "hit", "frame", "graph")
-"""Scopes of draws that are no clusters."""
 SETTING_ROLES = ("set", "fade", "assign")
 """Roles of operators that give attributes new values."""
 ENDING_ROLES = ("kill", "recycle")
@@ -30,7 +28,7 @@ def names_in(tree: Any) -> set[str]:
     elif isinstance(tree, Node) and tree.node_type is not None:
         own = set(tree.node_type.reads)
     if isinstance(tree, (Random, Node)):
-        own |= {"hits"} if tree.per == "hit" else set() if tree.per in DRAW_SCOPES else {tree.per}
+        own |= {"hits"} if tree.per == "hit" else set() if tree.per in SCOPES else {tree.per}
     return own.union(*(names_in(part) for part in children(tree)))
 
 
@@ -100,7 +98,7 @@ class Holder:
     def changing(self) -> frozenset[str]:
         """Return the attributes that change within a frame, beside position and velocity."""
         nodes = [node for node in self.of_role(*SETTING_ROLES) if moment_of(node) in ("step", "hit")]
-        return frozenset(name for node in nodes for name in (*node.sets, *node.node_type.writes)) | {"hits"}
+        return frozenset(name for node in nodes for name in node.gives) | {"hits"}
 
     def parents_of(self, maker: FlatNode) -> list[Holder]:
         """Return the sources of a maker's parents; an `emit` has none."""
@@ -177,7 +175,7 @@ class Holder:
     def made_apart(self) -> set[str]:
         """Return the attributes that differ at birth by who made the particle, or that are set or spread at birth."""
         at_birth = [node for node in self.of_role("set", "assign") if moment_of(node) == "birth"]
-        found = {name for node in at_birth for name in (*node.sets, *node.node_type.writes) if name in self.table}
+        found = {name for node in at_birth for name in node.gives if name in self.table}
         for adder in self.adders:
             found |= {"generation", *adder.sets, *(["life"] if "life" in adder.given else [])}
             listed = _listed(adder)
@@ -220,7 +218,7 @@ class Holder:
         ordered: list[str] = []
 
         def visit(name: str) -> None:
-            if name in ordered or name not in self.table or name in DERIVED_ATTRIBUTES:
+            if name in ordered or name not in self.table:
                 return
             for read in sorted(names_in(self.value_from(maker, name, parents)) - {name}):
                 visit(read)

@@ -7,11 +7,9 @@ from dataclasses import dataclass, field
 
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Literal, Value
-from graphfx.node import DERIVED_ATTRIBUTES, INFINITY
+from graphfx.node import INFINITY
 from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, moment_of, names_in
-
-COLUMN_TYPES = {"float": "float", "int": "float", "bool": "float"}
-"""Column types of attribute types; all others are vectors."""
+from graphfx.plan.rates import lane_type
 
 
 @dataclass
@@ -89,9 +87,8 @@ class Reading:
 
     def targets(self, node: FlatNode) -> list[str]:
         """Return the attributes that a setting operator gives and that are read; at birth as `birth.x` as well."""
-        given = (*node.sets, *node.node_type.writes)
         at_birth = moment_of(node) == "birth"
-        return [name for name in given if name in self.readers or (at_birth and f"birth.{name}" in self.readers)]
+        return [name for name in node.gives if name in self.readers or (at_birth and f"birth.{name}" in self.readers)]
 
 
 def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> Attributes:
@@ -99,18 +96,18 @@ def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> 
     holder, readers = reading.holder, reading.readers
     if not prune:
         for name in (*holder.table, "age"):
-            if name not in DERIVED_ATTRIBUTES or name == "age":
-                readers.setdefault(name, "nothing")
+            readers.setdefault(name, "nothing")
         for value in (value for node in holder.of_role(*SETTING_ROLES) for value in values_of(node)):
             for name in names_in(value):
                 readers.setdefault(name, "nothing")
     found = Attributes(read=frozenset(name for name, reader in readers.items() if reader != "nothing"))
     for name, attribute in holder.table.items():
-        if name == "life" or name in DERIVED_ATTRIBUTES:
+        if name == "life":
             continue
-        differs = holder.varies(name) or (not prune and name not in found.constants)
+        differs = holder.varies(name) or not prune
         if name in readers and differs:
-            found.store(name, COLUMN_TYPES.get(attribute.type, "vec3"), f"read by {readers[name]}", _lane(attribute.type))
+            lane = lane_type(attribute.type)
+            found.store(name, lane, f"read by {readers[name]}", lane)
         elif differs:
             found.unread.append(name)
         else:
@@ -121,17 +118,13 @@ def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> 
     return found
 
 
-def _lane(type_: str) -> str:
-    return COLUMN_TYPES.get(type_, "vec3")
-
-
 def _note_birth(found: Attributes, holder: Holder, readers: dict[str, str], name: str) -> None:
     """Store the value at birth of what changes, where it is read."""
     at_birth = f"birth.{name}"
     if at_birth not in readers:
         return
     if holder.varies_at_birth(name):
-        lane = _lane(holder.table[name].type)
+        lane = lane_type(holder.table[name].type)
         found.store(at_birth, lane, f"read by {readers[at_birth]}", lane)
     else:
         found.constants[at_birth] = holder.value(name)
@@ -141,7 +134,7 @@ def _add_tails(found: Attributes, holder: Holder, readers: dict[str, str]) -> No
     for node in holder.of_role("set"):
         for name in node.sets:
             if name.startswith("tail.") and name in readers:
-                lane = _lane(holder.table[name[5:]].type)
+                lane = lane_type(holder.table[name[5:]].type)
                 found.store(name, lane, f"set by {node.path}, for the renderer", lane)
 
 

@@ -42,7 +42,7 @@ class Setting:
 
     def targets(self, live: Collection[str]) -> list[str]:
         """Return the attributes that it gives and that are stored."""
-        return [name for name in (*self.node.sets, *self.node.node_type.writes) if name in live]
+        return [name for name in self.node.gives if name in live]
 
     def write(self, live: Collection[str]) -> Builder | None:
         """Write new values into the columns; return the builder under the operator's conditions, None if it gives nothing."""

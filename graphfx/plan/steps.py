@@ -58,7 +58,7 @@ class FrameWriter:
     def acts(self) -> bool:
         """Return whether anything happens in a step, beside motion."""
         live = self.attributes.columns
-        given = [name for node in (*self.settings, *self.fades) for name in (*node.sets, *node.node_type.writes)]
+        given = [name for node in (*self.settings, *self.fades) for name in node.gives]
         return bool(self.endings) or any(name in live for name in given)
 
     def _begin(self, name: str) -> tuple[Builder, Moments]:
@@ -110,7 +110,7 @@ class FrameWriter:
     @property
     def wakes(self) -> bool:
         """Return whether what is set at the start of a step may move particles that are at rest."""
-        return any({"position", "velocity"} & {*node.sets, *node.node_type.writes} for node in self.settings)
+        return any({"position", "velocity"} & set(node.gives) for node in self.settings)
 
     def _start(
         self, builder: Builder, moments: Moments, k: int, state: State, event: Column | None, resting: Column | None
@@ -218,9 +218,9 @@ class FrameWriter:
         """Return the program of what is set as the frame ends; or, for `opening`, where it puts tails as the shutter opens."""
         nodes = [node for node in self.holder.of_role(*SETTING_ROLES) if moment_of(node) == "frame"]
         live = self.attributes.columns
-        nodes = [node for node in nodes if any(name in live for name in (*node.sets, *node.node_type.writes))]
+        nodes = [node for node in nodes if any(name in live for name in node.gives)]
         if opening:
-            places = any("position" in (*node.sets, *node.node_type.writes) for node in nodes)
+            places = any("position" in node.gives for node in nodes)
             nodes = nodes if places and "tail" in live else []
         kills = [] if opening else [node for node in self.holder.of_role("kill") if moment_of(node) == "frame"]
         if not nodes and not kills:
@@ -228,7 +228,7 @@ class FrameWriter:
         builder, moments = self._begin("tails" if opening else "end of the frame")
         state = moments.state(builder, self.motion.has_velocity, "tail" if opening else "position")
         time = "opening" if opening else "frame end"
-        moved = any({"position", "velocity"} & {*node.sets, *node.node_type.writes} for node in nodes)
+        moved = any({"position", "velocity"} & set(node.gives) for node in nodes)
         resting = builder.load("resting", "bool") if moved and not opening and "resting" in live else None
         for node in nodes:
             fixed = lambda: moments.fixed(builder, time, state)  # noqa: E731
