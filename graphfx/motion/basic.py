@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphfx.math import Vec3, dot, length, maximum, minimum, where
-from graphfx.program import Bundle
+from graphfx.program import Bundle, Function
 
 MOTION = Bundle("motion")
 FAR = 2.0**60
@@ -22,6 +22,11 @@ def copy_number(a: Any) -> Any:
 def copy_vector(a: Any) -> Any:
     """a."""
     return a
+
+
+def copy_of(type_: str) -> Function:
+    """Return the instruction that copies a number or a vector."""
+    return copy_vector if type_ == "vec3" else copy_number
 
 
 @MOTION.function("float", "float")

@@ -102,8 +102,7 @@ class Hits:
             number = self.numbers[hit.surface.node.path]
             inside.call(basic.copy_number, Uniform(str(number), "float", float(number)), into=fate.surface)
             for name, column in fate.hit.items():
-                copy = basic.copy_number if column.type == "float" else basic.copy_vector
-                inside.call(copy, told[name], into=column)
+                inside.call(basic.copy_of(column.type), told[name], into=column)
 
 
 def _hears(node: FlatNode, surface: Mover) -> bool:

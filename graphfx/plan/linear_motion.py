@@ -198,7 +198,7 @@ def _folded_under(builder: Builder, moment: Moment, function: Any, *operands: An
 def _zero_outside(builder: Builder, inside: Builder, term: Operand) -> Operand:
     """Return a term that is zero where the operator does not act."""
     vector = term.type == "vec3"
-    copy = basic.copy_vector if vector else basic.copy_number
+    copy = basic.copy_of(term.type)
     made = builder.call(copy, ZERO if vector else NOUGHT)
     inside.call(copy, term, into=made)
     return made

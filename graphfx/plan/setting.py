@@ -20,7 +20,7 @@ def as_column(builder: Builder, operand: Operand, type_: str, name: str, always:
     if isinstance(operand, Column) and not always:
         return operand
     made = Column(name, type_)
-    builder.call(basic.copy_vector if type_ == "vec3" else basic.copy_number, operand, into=made)
+    builder.call(basic.copy_of(type_), operand, into=made)
     return made
 
 
@@ -67,13 +67,13 @@ class Setting:
             return
         for name in names:
             writer, into = self.writer(), self.column(name)
-            value, vector = writer.argument(self.node.sets[name]), into.type == "vec3"
+            value = writer.argument(self.node.sets[name])
             if self.node.node_type.role == "fade":
                 rate = writer.argument(self.node.arguments["rate"])
-                function = events.faded_vector if vector else events.faded_number
+                function = events.faded_vector if into.type == "vec3" else events.faded_number
                 inside.call(function, into, value, rate, self.dt or Uniform("0", "float", 0.0), into=into)
             else:
-                inside.call(basic.copy_vector if vector else basic.copy_number, value, into=into)
+                inside.call(basic.copy_of(into.type), value, into=into)
 
     def _assign(self, inside: Builder, live: Collection[str]) -> None:
         node_type, writer = self.node.node_type, self.writer()
@@ -91,7 +91,7 @@ class Setting:
         for name, result in zip(node_type.writes, results, strict=True):
             if name in live:
                 into = self.column(name)
-                inside.call(basic.copy_vector if into.type == "vec3" else basic.copy_number, result, into=into)
+                inside.call(basic.copy_of(into.type), result, into=into)
 
 
 def under_conditions(node: FlatNode, writer: ValueWriter, builder: Builder) -> Builder:

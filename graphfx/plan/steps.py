@@ -174,8 +174,10 @@ class FrameWriter:
         made = Fate(builder.call(basic.copy_number, nought, name="fate"), surface, builder.load("begun", "float"))
         if self.hits.listeners:
             zero = {"float": nought, "vec3": Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))}
-            copies = {"float": basic.copy_number, "vec3": basic.copy_vector}
-            made.hit = {f"hit.{name}": builder.call(copies[t], zero[t], name=f"hit.{name}") for name, t in HIT_TYPES.items()}
+            made.hit = {
+                f"hit.{name}": builder.call(basic.copy_of(type_), zero[type_], name=f"hit.{name}")
+                for name, type_ in HIT_TYPES.items()
+            }
         return made
 
     def _own_start(self, builder: Builder, moments: Moments, k: int, state: State, turn: Turn, end: Column) -> None:
