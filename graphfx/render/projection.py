@@ -208,7 +208,10 @@ def _write_look(columns, i, first, last, factor, look, segments, at):
 
 @compiled
 def project(columns, view, look, start, stop, segments, offset):
-    """Write the segments of particles start ... stop from row offset + start on; return how many, and how many were dropped."""
+    """Write the segments of particles start ... stop from row offset + start on; return how many, and how many were dropped.
+
+    Particle i is number offset + i of all streams.
+    """
     at, dropped = offset + start, 0
     for i in range(start, stop):
         if not _finite(columns, i):
@@ -222,5 +225,7 @@ def project(columns, view, look, start, stop, segments, offset):
         if look.exposed:
             factor *= _unit(np.float64(_value(columns, 16, i))) * (last - first)
         if _write_look(columns, i, first, last, factor, look, segments, at):
+            if len(segments.particle):
+                segments.particle[at] = offset + i
             at += 1
     return at - offset - start, dropped

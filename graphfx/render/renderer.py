@@ -19,6 +19,7 @@ from graphfx.render.film import Film
 from graphfx.render.layer import GROUPS
 from graphfx.render.pending import LANES, LIGHT, PLANES
 from graphfx.render.projection import Look, View, project
+from graphfx.render.samples import Samples, sample_bands
 from graphfx.render.segments import Segments, empty_segments
 from graphfx.render.streaks import Streaks, addresses
 from graphfx.render.tiles import Tiles, new_scratch, render_tiles
@@ -33,17 +34,18 @@ PROJECTED = 4096
 """Fewest particles to project worth a thread of their own."""
 
 Listener = Callable[[str], Any]
+Sampler = Callable[[Samples], Any]
 
 
 def render(
     streams: Sequence[Streaks], head_camera: Camera, tail_camera: Camera | None, width: int, height: int,
-    threads: int = 1, listener: Listener = lambda step: None,
+    threads: int = 1, listener: Listener = lambda step: None, sampler: Sampler | None = None,
 ) -> Film:
     """Return the film of all streams together.
 
     The cameras are those at the end and at the opening of the shutter (None: the same); near and far
     planes are the head's. Any number of threads gives the same bytes. `listener` is called with the
-    name of each step as it begins.
+    name of each step as it begins, `sampler` with the samples of each band of rows, from the top.
     """
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:
@@ -51,25 +53,29 @@ def render(
     if width < 1 or height < 1:
         raise ValueError(f"a picture of {width} x {height} pixels has no pixels")
     listener("project")
-    segments, rows, dropped = _project(streams, head_camera, tail_camera, width, height, threads)
+    segments, rows, dropped = _project(streams, head_camera, tail_camera, width, height, threads, sampler is not None)
     listener("order")
     segments = _ordered(segments, rows, threads)
     listener("bin")
     tiles = bin_segments(segments, width, height, head_camera.perspective, threads)
     listener("tiles")
     pixels, fragments = _composite(segments, tiles, threads)
+    if sampler is not None:
+        listener("samples")
+        for samples in sample_bands(segments, tiles, threads):
+            sampler(samples)
     return Film(pixels, fragments, dropped)
 
 
 def _project(
-    streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int
+    streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int, sampled: bool
 ) -> tuple[Segments, np.ndarray, int]:
     """Return room for all segments, the rows of those in the picture, and how many particles were dropped."""
     view = View(
         head.screen_matrix(width, height), tail.screen_matrix(width, height), head.scale(width), tail.scale(width),
         *head.planes, head.perspective, width, height,
     )
-    segments = empty_segments(sum(stream.count for stream in streams), any(stream.varies for stream in streams))
+    segments = empty_segments(sum(stream.count for stream in streams), any(stream.varies for stream in streams), sampled)
     rows: list[np.ndarray] = [np.empty(0, np.int64)]
     offset = dropped = 0
     for stream in streams:
@@ -109,6 +115,8 @@ def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
             target.places[i, c] = source.places[row, c]
         target.pace[i] = source.pace[row]
         target.kind[i] = source.kind[row]
+        if len(source.particle):
+            target.particle[i] = source.particle[row]
         if len(source.tails):
             for c in range(4):
                 target.tails[i, c] = source.tails[row, c]
@@ -117,7 +125,7 @@ def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
 def _ordered(segments: Segments, rows: np.ndarray, threads: int) -> Segments:
     """Return the segments of `rows`, nearest first; equals stay in the order of stream and particle."""
     order = rows[stable_argsort(segments.nearest[rows], threads)]
-    packed = empty_segments(len(rows), len(segments.tails) > 0)
+    packed = empty_segments(len(rows), len(segments.tails) > 0, len(segments.particle) > 0)
     bounds = ranges(len(rows), threads, GRAIN)
     parallel_ranges(lambda _, start, stop: _pack(segments, order, start, stop, packed), bounds, threads)
     return packed

@@ -15,7 +15,10 @@ RADIUS0, RADIUS1, KEY0, KEY1, OPACITY, RED, GREEN, BLUE = range(8, 16)
 
 
 class Segments(NamedTuple):
-    """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need."""
+    """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need.
+
+    `particle` is the number of the segment's particle among those of all streams, where samples are wanted.
+    """
 
     places: np.ndarray
     values: np.ndarray
@@ -23,12 +26,14 @@ class Segments(NamedTuple):
     pace: np.ndarray
     kind: np.ndarray
     nearest: np.ndarray
+    particle: np.ndarray
 
 
-def empty_segments(count: int, varies: bool) -> Segments:
-    """Return room for `count` segments; colours of tails only if any varies."""
+def empty_segments(count: int, varies: bool, sampled: bool) -> Segments:
+    """Return room for `count` segments; colours of tails only if any varies, particles only if they are sampled."""
     places = np.empty((count, 8), np.float64)
     return Segments(
         places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
+        np.empty(count if sampled else 0, np.int64),
     )
