@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphfx.lanes import any_lane, load, mask_bits, mask_from_bits, splat, store
+from graphfx.lanes import any_lane, load, mask_bits, splat, store
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import absolute, maximum, where
 
@@ -22,8 +22,10 @@ PLANES = 5
 SLOT = PLANES * LANES
 CAPACITY = 48
 """Slots of a list; a group that needs more is sorted whole instead."""
-LIST = (CAPACITY + 2) * SLOT + 2 * LANES
-"""Floats from one group's list to the next: one slot to append, one for the empty end, and a shift in the cache."""
+DRIFT = 8
+"""Slots at the head of a list that may be used up before the others are moved to its beginning."""
+LIST = (CAPACITY + DRIFT + 1) * SLOT + 2 * LANES
+"""Floats from one group's list to the next: one slot to append, and a shift in the cache."""
 LIGHT = 4 * LANES
 """Floats of a group's transmittance, red, green and blue."""
 PATIENCE = 3
@@ -59,64 +61,76 @@ def add_slot(light, at, slots, slot, chosen):
 
 
 @inner
-def release(light, at, slots, base, count, nearest):
-    """Composite what is final from the head of a list; return the slots used up and the bits of lanes used up in the next."""
-    first = 0
-    while first < count:
-        key = load(slots, base + first * SLOT)
-        final = key <= nearest
-        bits = mask_bits(final)
-        if mask_bits(final | (key == EMPTY)) != ALL:
-            if bits != 0 and count - first >= PATIENCE:
-                add_slot(light, at, slots, base + first * SLOT, final)
-                return first, bits
-            return first, 0
-        add_slot(light, at, slots, base + first * SLOT, final)
-        first += 1
-    return first, 0
+def _drop_lanes(slots, base, first, count, gone):
+    """Move the lanes `gone` of all slots up by one; return the new number of slots."""
+    for k in range(first, first + count - 1):
+        here, there = base + k * SLOT, base + (k + 1) * SLOT
+        for plane in range(PLANES):
+            at = plane * LANES
+            store(slots, here + at, where(gone, load(slots, there + at), load(slots, here + at)))
+    last = base + (first + count - 1) * SLOT
+    key = where(gone, EMPTY, load(slots, last))
+    store(slots, last, key)
+    return count if any_lane(key < EMPTY) else count - 1
 
 
 @inner
-def insert(slots, base, first, count, used, key, opacity, red, green, blue):
-    """Insert one fragment a lane by compare-exchange; return the new number of slots.
+def release(light, at, slots, base, first, count, nearest):
+    """Composite what is final from the head of a list; return the first slot and the number of slots that are left."""
+    while count > 0:
+        key = load(slots, base + first * SLOT)
+        final = key <= nearest
+        if mask_bits(final | (key == EMPTY)) != ALL:
+            if count >= PATIENCE and any_lane(final):
+                add_slot(light, at, slots, base + first * SLOT, final)
+                return first, _drop_lanes(slots, base, first, count, final)
+            return first, count
+        add_slot(light, at, slots, base + first * SLOT, final)
+        first += 1
+        count -= 1
+    return 0, 0
 
-    Slots before `first` are gone, and so are the lanes `used` of slot `first`: the rest moves up as the
-    insertion passes over it. Among equal keys the new fragment, the later in rank, goes behind.
+
+@inner
+def to_front(slots, base, first, count):
+    """Move the slots of a list to its beginning."""
+    for k in range(count):
+        for plane in range(PLANES):
+            store(slots, base + k * SLOT + plane * LANES, load(slots, base + (first + k) * SLOT + plane * LANES))
+
+
+@inner
+def _store_slot(slots, place, key, opacity, red, green, blue):
+    store(slots, place, key)
+    store(slots, place + LANES, opacity)
+    store(slots, place + 2 * LANES, red)
+    store(slots, place + 3 * LANES, green)
+    store(slots, place + 4 * LANES, blue)
+
+
+@inner
+def insert(slots, base, first, count, key, opacity, red, green, blue):
+    """Insert one fragment a lane, from the back, by compare-exchange; return the new number of slots.
+
+    Among equal keys the new fragment, the later in rank, goes behind.
     """
-    gone = mask_from_bits(used)
-    moved = mask_from_bits(0)
-    source, place = base + first * SLOT, base
-    key_here, opacity_here = load(slots, source), load(slots, source + LANES)
-    red_here, green_here = load(slots, source + 2 * LANES), load(slots, source + 3 * LANES)
-    blue_here = load(slots, source + 4 * LANES)
-    for _ in range(first, count):
-        source += SLOT
-        key_next, opacity_next = load(slots, source), load(slots, source + LANES)
-        red_next, green_next = load(slots, source + 2 * LANES), load(slots, source + 3 * LANES)
-        blue_next = load(slots, source + 4 * LANES)
-        key_old, opacity_old = where(gone, key_next, key_here), where(gone, opacity_next, opacity_here)
-        red_old, green_old = where(gone, red_next, red_here), where(gone, green_next, green_here)
-        blue_old = where(gone, blue_next, blue_here)
-        moved = moved | (key < key_old)
-        store(slots, place, where(moved, key, key_old))
-        store(slots, place + LANES, where(moved, opacity, opacity_old))
-        store(slots, place + 2 * LANES, where(moved, red, red_old))
-        store(slots, place + 3 * LANES, where(moved, green, green_old))
-        store(slots, place + 4 * LANES, where(moved, blue, blue_old))
-        key, opacity = where(moved, key_old, key), where(moved, opacity_old, opacity)
-        red, green, blue = where(moved, red_old, red), where(moved, green_old, green), where(moved, blue_old, blue)
-        key_here, opacity_here, red_here, green_here, blue_here = key_next, opacity_next, red_next, green_next, blue_next
-        place += SLOT
-    left = count - first
-    if any_lane(key < EMPTY):
-        store(slots, place, key)
-        store(slots, place + LANES, opacity)
-        store(slots, place + 2 * LANES, red)
-        store(slots, place + 3 * LANES, green)
-        store(slots, place + 4 * LANES, blue)
-        store(slots, place + SLOT, splat(EMPTY))
-        return left + 1
-    store(slots, place, splat(EMPTY))
-    if left > 0 and not any_lane(load(slots, place - SLOT) < EMPTY):
-        left -= 1
-    return left
+    place = base + (first + count) * SLOT
+    back, begin = place, base + first * SLOT
+    while place > begin:
+        before = place - SLOT
+        key_there = load(slots, before)
+        sooner = key < key_there
+        if not any_lane(sooner):
+            break
+        _store_slot(
+            slots, place, where(sooner, key_there, key), where(sooner, load(slots, before + LANES), opacity),
+            where(sooner, load(slots, before + 2 * LANES), red), where(sooner, load(slots, before + 3 * LANES), green),
+            where(sooner, load(slots, before + 4 * LANES), blue),
+        )
+        key, opacity = where(sooner, key, key_there), where(sooner, opacity, load(slots, before + LANES))
+        red = where(sooner, red, load(slots, before + 2 * LANES))
+        green = where(sooner, green, load(slots, before + 3 * LANES))
+        blue = where(sooner, blue, load(slots, before + 4 * LANES))
+        place = before
+    _store_slot(slots, place, key, opacity, red, green, blue)
+    return count + 1 if any_lane(load(slots, back) < EMPTY) else count

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.lanes import compiled
+from graphfx.lanes.bits import prefetch
 from graphfx.render.bins import bin_segments
 from graphfx.render.camera import Camera
 from graphfx.render.deep import render_deep
@@ -22,7 +23,7 @@ from graphfx.render.projection import Look, View, project
 from graphfx.render.samples import Samples, sample_bands
 from graphfx.render.segments import Segments, empty_segments
 from graphfx.render.streaks import Streaks, addresses
-from graphfx.render.tiles import Tiles, new_scratch, render_tiles
+from graphfx.render.tiles import AHEAD, Tiles, new_scratch, render_tiles
 from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
 from graphfx.store.threads import parallel, parallel_ranges, ranges
@@ -110,7 +111,10 @@ def _project_stream(
 def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
     """Copy the segments order[start : stop] to rows start ... stop."""
     for i in range(start, stop):
-        row = order[i]
+        row, ahead = order[i], order[min(i + AHEAD, stop - 1)]
+        prefetch(source.values, ahead * 16)
+        prefetch(source.pace, ahead)
+        prefetch(source.kind, ahead)
         for c in range(8):
             target.places[i, c] = source.places[row, c]
         target.pace[i] = source.pace[row]

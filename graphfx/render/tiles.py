@@ -26,6 +26,7 @@ from graphfx.render.layer import (
 )
 from graphfx.render.pending import (
     CAPACITY,
+    DRIFT,
     EMPTY,
     LANES,
     LIGHT,
@@ -35,6 +36,7 @@ from graphfx.render.pending import (
     clear_light,
     insert,
     release,
+    to_front,
 )
 
 AHEAD = 12
@@ -55,10 +57,11 @@ class Tiles(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """One thread's memory: pending slots and light of a tile's groups, and for each group numbers of slots and fragments."""
+    """One thread's memory: pending slots and light of a tile's groups, and for each group where its list begins, and numbers."""
 
     slots: np.ndarray
     light: np.ndarray
+    firsts: np.ndarray
     counts: np.ndarray
     hits: np.ndarray
     inside: np.ndarray
@@ -66,7 +69,7 @@ class Scratch(NamedTuple):
 
 def new_scratch() -> Scratch:
     """Return scratch for one thread."""
-    numbers = np.zeros((3, GROUPS), np.int64)
+    numbers = np.zeros((4, GROUPS), np.int64)
     return Scratch(np.zeros(GROUPS * LIST, np.float32), np.zeros(GROUPS * LIGHT, np.float32), *numbers)
 
 
@@ -88,14 +91,19 @@ def _draw(segments, q, local, group, square, scratch):
     if bits == 0:
         return
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
-    base, count = group * LIST, scratch.counts[group]
-    first, used = release(scratch.light, group * LIGHT, scratch.slots, base, count, local.nearest)
-    if count - first >= CAPACITY:
+    base = group * LIST
+    first, count = release(
+        scratch.light, group * LIGHT, scratch.slots, base, scratch.firsts[group], scratch.counts[group], local.nearest
+    )
+    if first >= DRIFT:
+        to_front(scratch.slots, base, first, count)
+        first = 0
+    scratch.firsts[group] = first
+    if count >= CAPACITY:
         scratch.counts[group] = OVERFLOWED
     else:
         scratch.counts[group] = insert(
-            scratch.slots, base, first, count, used,
-            where(hit, key, EMPTY), where(hit, opacity * shape, 0.0), red, green, blue,
+            scratch.slots, base, first, count, where(hit, key, EMPTY), where(hit, opacity * shape, 0.0), red, green, blue
         )
     scratch.hits[group] += count_bits(bits & scratch.inside[group])
 
@@ -120,7 +128,7 @@ def _finish_tile(tiles, k, scratch, overflowed, pixels):
             overflowed[k * GROUPS + group] = True
             continue
         for slot in range(scratch.counts[group]):
-            at = group * LIST + slot * SLOT
+            at = group * LIST + (scratch.firsts[group] + slot) * SLOT
             add_slot(scratch.light, group * LIGHT, scratch.slots, at, load(scratch.slots, at) < EMPTY)
         write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group])
         total += scratch.hits[group]
@@ -134,12 +142,13 @@ def render_tiles(segments, tiles, start, stop, scratch, overflowed, pixels):
     for k in range(start, stop):
         left, top = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT
         for group in range(GROUPS):
-            scratch.counts[group] = scratch.hits[group] = 0
+            scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = 0
             scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
             clear_light(scratch.light, group * LIGHT)
         last_place = tiles.starts[k + 1] - 1
         for place in range(tiles.starts[k], last_place + 1):
-            prefetch(segments.values, tiles.members[min(place + AHEAD, last_place)] * 16)
+            ahead = tiles.members[min(place + AHEAD, last_place)]
+            prefetch(segments.values, ahead * 16)
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
