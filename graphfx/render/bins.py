@@ -15,6 +15,7 @@ from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
 from graphfx.render.falloff import DISC, DISC_RAMP
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH, clipped
+from graphfx.render.patches import Patch
 from graphfx.render.segments import DX, DY, RADIUS0, RADIUS1, Segments, X, Y
 from graphfx.render.tiles import Tiles
 from graphfx.store.primitives import GRAIN, offsets
@@ -25,7 +26,7 @@ MARGIN = 0.01
 
 
 @inner
-def _near(low, high, size, count):
+def tiles_near(low, high, size, count):
     """Return the first and last of `count` tiles whose pixel centres reach into low ... high."""
     first = math.ceil(min(max((low - size + 0.5) / size, 0.0), float(count)))
     last = math.floor(min(max((high - 0.5) / size, -1.0), float(count - 1)))
@@ -33,47 +34,54 @@ def _near(low, high, size, count):
 
 
 @compiled
-def _bin(segments: Any, start: int, stop: int, across: int, down: int, places: Any, members: Any) -> None:
+def _bin(
+    segments: Any, start: int, stop: int, column: int, row: int, across: int, down: int, places: Any, members: Any
+) -> None:
     """Count each tile's segments in `places`; or, if there are `members`, write them there and move the places on."""
     write = members.size > 0
     for q in range(start, stop):
-        row, values = segments.places[q], segments.values[q]
-        x, y, dx, dy = row[X], row[Y], row[DX], row[DY]
+        place, values = segments.places[q], segments.values[q]
+        x, y, dx, dy = place[X] - column * TILE_WIDTH, place[Y] - row * TILE_HEIGHT, place[DX], place[DY]
         reach = np.float64(max(values[RADIUS0], values[RADIUS1], np.float32(1.0))) + MARGIN
         if segments.kind[q] & 3 == DISC:
             reach += DISC_RAMP
-        first_row, last_row = _near(min(y, y + dy) - reach, max(y, y + dy) + reach, TILE_HEIGHT, down)
+        first_row, last_row = tiles_near(min(y, y + dy) - reach, max(y, y + dy) + reach, TILE_HEIGHT, down)
         for tile_row in range(first_row, last_row + 1):
             low = tile_row * TILE_HEIGHT + 0.5 - reach
             first, last = clipped(y, dy, low, low + TILE_HEIGHT - 1.0 + 2.0 * reach, 0.0, 1.0)
             if first > last:
                 continue
             a, b = x + first * dx, x + last * dx
-            first_column, last_column = _near(min(a, b) - reach, max(a, b) + reach, TILE_WIDTH, across)
+            first_column, last_column = tiles_near(min(a, b) - reach, max(a, b) + reach, TILE_WIDTH, across)
             for tile in range(tile_row * across + first_column, tile_row * across + last_column + 1):
                 if write:
                     members[places[tile]] = q
                 places[tile] += 1
 
 
-def bin_segments(segments: Segments, width: int, height: int, perspective: bool, threads: int) -> Tiles:
-    """Return which segments touch which tile, nearest first in each."""
-    across, down = -(-width // TILE_WIDTH), -(-height // TILE_HEIGHT)
+def bin_segments(
+    segments: Segments, patch: Patch, width: int, height: int, perspective: bool, threads: int, most: float = math.inf
+) -> Tiles | None:
+    """Return which segments touch which tile of a patch, nearest first in each; None if there are more than `most` such pairs."""
+    across, down = patch.right - patch.left, patch.bottom - patch.top
     bounds = ranges(len(segments.kind), threads, GRAIN)
     counts = np.zeros((len(bounds), across * down), np.int64)
     nothing = np.empty(0, np.int32)
+    grid = patch.left, patch.top, across, down
 
     def count(piece: int, start: int, stop: int) -> None:
-        _bin(segments, start, stop, across, down, counts[piece], nothing)
+        _bin(segments, start, stop, *grid, counts[piece], nothing)
 
     parallel_ranges(count, bounds, threads)
     starts = offsets(counts.sum(axis=0))
+    if starts[-1] > most:
+        return None
     places = starts[:-1] + np.cumsum(counts, axis=0) - counts
     members = np.empty(starts[-1], np.int32)
 
     def scatter(piece: int, start: int, stop: int) -> None:
-        _bin(segments, start, stop, across, down, places[piece], members)
+        _bin(segments, start, stop, *grid, places[piece], members)
 
     if members.size:
         parallel_ranges(scatter, bounds, threads)
-    return Tiles(starts, members, across, width, height, perspective)
+    return Tiles(starts, members, patch.left, patch.top, across, width, height, perspective)

@@ -8,6 +8,8 @@ follows the number of fragments that are pending at one time, not the number the
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from graphfx.lanes import compiled, mask_bits, store
@@ -17,48 +19,29 @@ from graphfx.math.primitives import where
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     GROUPS,
-    TILE_HEIGHT,
-    TILE_WIDTH,
     colored,
     fragments,
     groups_touched,
     localize,
 )
-from graphfx.render.pending import LANES, clear_light
+from graphfx.render.order import merge_sort, ordered_bits, ordered_word
+from graphfx.render.pending import LANES, LIGHT, PLANES, clear_light
 from graphfx.render.segments import KEY0, KEY1
-from graphfx.render.tiles import lanes_inside, write_pixels
+from graphfx.render.tiles import lanes_inside, tile_corner, write_pixels
 
 FIRST_CAPACITY = 64
 
 
-@inner
-def ordered_bits(bits):
-    """Return a uint32 that orders as the float32 of these bits does."""
-    wide = np.uint64(bits)
-    return wide ^ np.uint64(0xFFFFFFFF) if wide >> np.uint64(31) else wide | np.uint64(0x80000000)
+class Buffer(NamedTuple):
+    """The pending fragments of sixteen pixels: words to sort (16, capacity), values (16, capacity, 4), room, numbers, light."""
 
-
-@inner
-def merge_sort(words, spare, count):
-    """Sort words[:count] upwards; runs that already follow each other are left alone."""
-    width = 1
-    while width < count:
-        for start in range(0, count - width, 2 * width):
-            middle, stop = start + width, min(start + 2 * width, count)
-            if words[middle - 1] <= words[middle]:
-                continue
-            for i in range(start, middle):
-                spare[i] = words[i]
-            left, right, at = start, middle, start
-            while left < middle:
-                if right < stop and words[right] < spare[left]:
-                    words[at] = words[right]
-                    right += 1
-                else:
-                    words[at] = spare[left]
-                    left += 1
-                at += 1
-        width *= 2
+    words: np.ndarray
+    values: np.ndarray
+    spare_words: np.ndarray
+    spare_values: np.ndarray
+    filled: np.ndarray
+    light: np.ndarray
+    planes: np.ndarray
 
 
 @inner
@@ -89,20 +72,22 @@ def _flush_lane(words, values, spare_words, spare_values, count, limit, light, a
 
 
 @inner
-def _flush(words, values, spare_words, spare_values, filled, limit, light):
+def _flush(buffer, limit):
     """Composite what is final in all sixteen pixels; return the most that is left in one."""
     most = 0
     for lane in range(LANES):
-        filled[lane] = _flush_lane(
-            words[lane], values[lane], spare_words, spare_values, filled[lane], limit, light, lane
+        buffer.filled[lane] = _flush_lane(
+            buffer.words[lane], buffer.values[lane], buffer.spare_words, buffer.spare_values, buffer.filled[lane], limit,
+            buffer.light, lane,
         )
-        most = max(most, filled[lane])
+        most = max(most, buffer.filled[lane])
     return most
 
 
 @inner
-def _gather(segments, q, local, group, square, planes, words, values, filled):
+def _gather(segments, q, local, group, square, buffer):
     """Append one segment's fragments; return the bits of the pixels that have one."""
+    planes = buffer.planes
     key, shape, t, hit = fragments(local, group, square)
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
     store(planes, 0, key)
@@ -113,27 +98,17 @@ def _gather(segments, q, local, group, square, planes, words, values, filled):
     bits, key_bits = mask_bits(hit), planes.view(np.uint32)
     for lane in range(LANES):
         if bits >> lane & 1:
-            place = filled[lane]
-            words[lane, place] = ordered_bits(key_bits[lane]) << np.uint64(32) | np.uint64(place)
+            place = buffer.filled[lane]
+            buffer.words[lane, place] = ordered_bits(key_bits[lane]) << np.uint64(32) | np.uint64(place)
             for plane in range(4):
-                values[lane, place, plane] = planes[(plane + 1) * LANES + lane]
-            filled[lane] = place + 1
+                buffer.values[lane, place, plane] = planes[(plane + 1) * LANES + lane]
+            buffer.filled[lane] = place + 1
     return bits
 
 
 @inner
-def _nearest_word(segments, q, planes):
-    planes[0] = min(segments.values[q, KEY0], segments.values[q, KEY1])
-    return ordered_bits(planes.view(np.uint32)[0])
-
-
-@inner
-def _copy(words, values, filled, new_words, new_values):
-    for lane in range(LANES):
-        for i in range(filled[lane]):
-            new_words[lane, i] = words[lane, i]
-            for plane in range(4):
-                new_values[lane, i, plane] = values[lane, i, plane]
+def _nearest_word(segments, q):
+    return ordered_word(min(segments.values[q, KEY0], segments.values[q, KEY1]))
 
 
 @inner
@@ -145,35 +120,56 @@ def _fullest(filled):
 
 
 @compiled
-def render_deep(segments, tiles, number, planes, light, filled, pixels):
-    """Render one group of one tile, `number` = tile * GROUPS + group, sorting all its fragments; return how many.
+def new_buffer(capacity):
+    """Return room for `capacity` fragments in each of sixteen pixels."""
+    light = np.zeros(LIGHT, np.float32)
+    clear_light(light, 0)
+    return Buffer(
+        np.empty((LANES, capacity), np.uint64), np.empty((LANES, capacity, 4), np.float32), np.empty(capacity, np.uint64),
+        np.empty((capacity, 4), np.float32), np.zeros(LANES, np.int64), light, np.zeros(PLANES * LANES, np.float32),
+    )
 
-    `planes` holds a layer, `light` one group's light, `filled` a zero for each lane.
+
+@compiled
+def _enlarged(buffer):
+    """Return a buffer of twice the capacity with the same content."""
+    larger = new_buffer(2 * len(buffer.spare_words))
+    for i in range(LIGHT):
+        larger.light[i] = buffer.light[i]
+    for lane in range(LANES):
+        larger.filled[lane] = buffer.filled[lane]
+        for i in range(buffer.filled[lane]):
+            larger.words[lane, i] = buffer.words[lane, i]
+            for plane in range(4):
+                larger.values[lane, i, plane] = buffer.values[lane, i, plane]
+    return larger
+
+
+@compiled
+def render_deep(segments, tiles, number, finish, buffer, pixels):
+    """Render one group of one tile, `number` = tile * GROUPS + group, sorting all its fragments.
+
+    Of a tile whose segments come in slabs, `finish` says that these are the last. Return the number of fragments and the
+    buffer that goes on.
     """
     k, group = number // GROUPS, number % GROUPS
-    left, top, stop = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT, tiles.starts[k + 1]
+    left, top = tile_corner(tiles, k)
+    stop = tiles.starts[k + 1]
     inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
-    capacity, total = FIRST_CAPACITY, 0
-    words, values = np.empty((LANES, capacity), np.uint64), np.empty((LANES, capacity, 4), np.float32)
-    spare_words, spare_values = np.empty(capacity, np.uint64), np.empty((capacity, 4), np.float32)
-    clear_light(light, 0)
+    total = 0
     for place in range(tiles.starts[k], stop):
         q = tiles.members[place]
         local = localize(segments, q, left + 0.5, top + 0.5)
         first, last = groups_touched(local)
         if group < first or group > last:
             continue
-        bits = _gather(segments, q, local, group, tiles.perspective, planes, words, values, filled)
-        total += count_bits(bits & inside)
-        if _fullest(filled) < capacity or place + 1 == stop:
-            continue
-        limit = _nearest_word(segments, tiles.members[place + 1], planes)
-        if 2 * _flush(words, values, spare_words, spare_values, filled, limit, light) > capacity:
-            capacity *= 2
-            old_words, old_values = words, values
-            words, values = np.empty((LANES, capacity), np.uint64), np.empty((LANES, capacity, 4), np.float32)
-            _copy(old_words, old_values, filled, words, values)
-            spare_words, spare_values = np.empty(capacity, np.uint64), np.empty((capacity, 4), np.float32)
-    _flush(words, values, spare_words, spare_values, filled, np.uint64(0xFFFFFFFF), light)
-    write_pixels(light, 0, pixels, left, top + GROUP_HEIGHT * group, inside)
-    return total
+        total += count_bits(_gather(segments, q, local, group, tiles.perspective, buffer) & inside)
+        capacity = len(buffer.spare_words)
+        if _fullest(buffer.filled) == capacity:
+            limit = _nearest_word(segments, tiles.members[min(place + 1, stop - 1)])
+            if 2 * _flush(buffer, limit) > capacity:
+                buffer = _enlarged(buffer)
+    if finish:
+        _flush(buffer, np.uint64(0xFFFFFFFF))
+        write_pixels(buffer.light, 0, pixels, left, top + GROUP_HEIGHT * group, inside)
+    return total, buffer

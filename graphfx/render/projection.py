@@ -20,6 +20,7 @@ from graphfx.lanes import compiled
 from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
+from graphfx.render.order import ordered_word
 from graphfx.render.segments import (
     DX,
     DY,
@@ -42,6 +43,8 @@ GREATEST_PACE = 1e28
 """Times the greatest radius still a float32."""
 GREATEST_COLOR = np.float32(1e30)
 """Colours are kept within this, so that differences and sums of them stay finite."""
+
+
 class View(NamedTuple):
     """The two cameras and the picture."""
 
@@ -52,8 +55,34 @@ class View(NamedTuple):
     near: float
     far: float
     perspective: bool
-    width: int
-    height: int
+
+
+class Slab(NamedTuple):
+    """A slice of depth: of particles start ... stop - 1 those whose nearest key is, as ordered bits, from low to high."""
+
+    sliced: bool
+    low: int
+    high: int
+    start: int
+    stop: int
+
+
+class Window(NamedTuple):
+    """What is rendered at one time: pixels left ... right - 1, top ... bottom - 1, of all depths or of a slab.
+
+    Where `top_rows` and `bottom_rows` hold the first and last row of tiles that each particle reaches, those that do not
+    reach the rows first_row ... last_row are passed over.
+    """
+
+    left: int
+    top: int
+    right: int
+    bottom: int
+    first_row: int
+    last_row: int
+    top_rows: np.ndarray
+    bottom_rows: np.ndarray
+    slab: Slab
 
 
 class Look(NamedTuple):
@@ -101,7 +130,8 @@ def _mixed(a, b, s):
 
 
 @inner
-def _finite(columns, i):
+def finite(columns, i):
+    """Return whether all numbers of particle i are finite."""
     total = 0.0
     for c in range(17):
         value = _value(columns, c, i)
@@ -120,7 +150,7 @@ def _color(value):
 
 
 @inner
-def _screen_segment(columns, i, view):
+def screen_segment(columns, i, view):
     """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1)) of particle i."""
     head = _transformed(view.head, _value(columns, 0, i), _value(columns, 1, i), _value(columns, 2, i))
     tail = _transformed(view.tail, _value(columns, 3, i), _value(columns, 4, i), _value(columns, 5, i))
@@ -142,13 +172,13 @@ def _screen_segment(columns, i, view):
 
 
 @inner
-def _touches(segment, reach, width, height):
-    """Return whether a segment's bounding box holds the centre of a pixel of the picture."""
+def touches(segment, reach, window):
+    """Return whether a segment's bounding box holds the centre of a pixel of the window."""
     x, y, dx, dy, r0, r1, _, _ = segment
     margin = max(r0, r1, 1.0) + reach
     return (
-        max(x, x + dx) + margin > 0.5 and min(x, x + dx) - margin < width - 0.5
-        and max(y, y + dy) + margin > 0.5 and min(y, y + dy) - margin < height - 0.5
+        max(x, x + dx) + margin > window.left + 0.5 and min(x, x + dx) - margin < window.right - 0.5
+        and max(y, y + dy) + margin > window.top + 0.5 and min(y, y + dy) - margin < window.bottom - 0.5
     )
 
 
@@ -206,26 +236,39 @@ def _write_look(columns, i, first, last, factor, look, segments, at):
     return opacity0 != 0.0 or opacity1 != 0.0
 
 
-@compiled
-def project(columns, view, look, start, stop, segments, offset):
-    """Write the segments of particles start ... stop from row offset + start on; return how many, and how many were dropped.
+@inner
+def _in_slab(nearest, number, slab):
+    """Return whether a particle is among those of a slab of depth."""
+    word = np.int64(ordered_word(nearest))
+    return slab.low <= word <= slab.high and slab.start <= number < slab.stop
 
-    Particle i is number offset + i of all streams.
+
+@compiled
+def project(columns, view, look, window, first, count, segments, at):
+    """Write the segments of `count` particles from row `at` on; return how many, and how many particles were dropped.
+
+    Particle i of the columns is number first + i of all streams. Only those that may touch the window are written.
     """
-    at, dropped = offset + start, 0
-    for i in range(start, stop):
-        if not _finite(columns, i):
+    begin, dropped = at, 0
+    filtered = len(window.top_rows) > 0
+    for i in range(count):
+        number = first + i
+        if filtered and (window.top_rows[number] > window.last_row or window.bottom_rows[number] < window.first_row):
+            continue
+        if not finite(columns, i):
             dropped += 1
             continue
-        visible, first, last, segment = _screen_segment(columns, i, view)
-        if not visible or not _touches(segment, look.reach, view.width, view.height):
+        visible, start, stop, segment = screen_segment(columns, i, view)
+        if not visible or not touches(segment, look.reach, window):
             continue
         _write_place(segment, _pace(segment, look, view.perspective), look, segments, at)
+        if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
+            continue
         factor = evenness(segments, at, view.perspective, _true_total(segment, look))
         if look.exposed:
-            factor *= _unit(np.float64(_value(columns, 16, i))) * (last - first)
-        if _write_look(columns, i, first, last, factor, look, segments, at):
+            factor *= _unit(np.float64(_value(columns, 16, i))) * (stop - start)
+        if _write_look(columns, i, start, stop, factor, look, segments, at):
             if len(segments.particle):
-                segments.particle[at] = offset + i
+                segments.particle[at] = number
             at += 1
-    return at - offset - start, dropped
+    return at - begin, dropped

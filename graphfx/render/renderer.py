@@ -5,34 +5,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from graphfx.lanes import compiled
-from graphfx.lanes.bits import prefetch
 from graphfx.render.bins import bin_segments
 from graphfx.render.camera import Camera
-from graphfx.render.deep import render_deep
-from graphfx.render.falloff import FALLOFFS
+from graphfx.render.compositing import Slabs, composite, composite_slabs
 from graphfx.render.film import Film
-from graphfx.render.layer import GROUPS
-from graphfx.render.pending import LANES, LIGHT, PLANES
-from graphfx.render.projection import Look, View, project
+from graphfx.render.order import ordered
+from graphfx.render.patches import MEMBER_BYTES, Counts, Patch, patches_within, whole_picture
 from graphfx.render.samples import Samples, sample_bands
-from graphfx.render.segments import Segments, empty_segments
-from graphfx.render.streaks import Streaks, addresses
-from graphfx.render.tiles import AHEAD, Tiles, new_scratch, render_tiles
-from graphfx.store.primitives import GRAIN
-from graphfx.store.sorting import stable_argsort
-from graphfx.store.threads import parallel, parallel_ranges, ranges
+from graphfx.render.scene import Scene, make_scene
+from graphfx.render.segments import Segments
+from graphfx.render.slabs import slabs_of
+from graphfx.render.streaks import Streaks
+from graphfx.render.tiles import Tiles
 
-PIECES = 16
-"""Pieces of the picture for each thread: enough that none waits long for the last."""
-
-PROJECTED = 4096
-"""Fewest particles to project worth a thread of their own."""
+LEAST_MEMORY = 1 << 22
+"""Bytes; with less a patch would be made of too few streaks to be worth its beginning."""
 
 Listener = Callable[[str], Any]
 Sampler = Callable[[Samples], Any]
@@ -40,119 +33,96 @@ Sampler = Callable[[Samples], Any]
 
 def render(
     streams: Sequence[Streaks], head_camera: Camera, tail_camera: Camera | None, width: int, height: int,
-    threads: int = 1, listener: Listener = lambda step: None, sampler: Sampler | None = None,
+    threads: int = 1, listener: Listener = lambda step: None, sampler: Sampler | None = None, memory: float = np.inf,
 ) -> Film:
     """Return the film of all streams together.
 
     The cameras are those at the end and at the opening of the shutter (None: the same); near and far
-    planes are the head's. Any number of threads gives the same bytes. `listener` is called with the
-    name of each step as it begins, `sampler` with the samples of each band of rows, from the top.
+    planes are the head's. `memory` is the number of bytes that may be used beside streams and film; what is too
+    much for it is made patch by patch. Any number of threads and any memory give the same bytes. `listener` is called
+    with the name of each step as it begins, `sampler` with the samples of each band of rows, from the top.
     """
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:
         raise ValueError("a camera's projection cannot change while the shutter is open")
     if width < 1 or height < 1:
         raise ValueError(f"a picture of {width} x {height} pixels has no pixels")
-    listener("project")
-    segments, rows, dropped = _project(streams, head_camera, tail_camera, width, height, threads, sampler is not None)
-    listener("order")
-    segments = _ordered(segments, rows, threads)
-    listener("bin")
-    tiles = bin_segments(segments, width, height, head_camera.perspective, threads)
-    listener("tiles")
-    pixels, fragments = _composite(segments, tiles, threads)
-    if sampler is not None:
-        listener("samples")
-        for samples in sample_bands(segments, tiles, threads):
-            sampler(samples)
-    return Film(pixels, fragments, dropped)
+    scene = make_scene(streams, head_camera, tail_camera, width, height, threads, sampler is not None)
+    film = Film(np.zeros((height, width, 4), np.float32))
+    _Rendering(scene, film, listener, sampler, max(memory, LEAST_MEMORY)).run()
+    return film
 
 
-def _project(
-    streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int, sampled: bool
-) -> tuple[Segments, np.ndarray, int]:
-    """Return room for all segments, the rows of those in the picture, and how many particles were dropped."""
-    view = View(
-        head.screen_matrix(width, height), tail.screen_matrix(width, height), head.scale(width), tail.scale(width),
-        *head.planes, head.perspective, width, height,
-    )
-    segments = empty_segments(sum(stream.count for stream in streams), any(stream.varies for stream in streams), sampled)
-    rows: list[np.ndarray] = [np.empty(0, np.int64)]
-    offset = dropped = 0
-    for stream in streams:
-        kept, lost = _project_stream(stream, view, segments, offset, threads)
-        rows += kept
-        dropped += lost
-        offset += stream.count
-    return segments, np.concatenate(rows), dropped
+@dataclass
+class _Rendering:
+    """One picture in the making."""
 
+    scene: Scene
+    film: Film
+    listener: Listener
+    sampler: Sampler | None
+    memory: float
 
-def _project_stream(
-    stream: Streaks, view: View, segments: Segments, offset: int, threads: int
-) -> tuple[list[np.ndarray], int]:
-    """Write a stream's segments from row `offset` on; return the rows written, in order, and the number dropped."""
-    columns = stream.columns()
-    table = addresses(columns)
-    sign = -1.0 if stream.blend == "add" else 1.0
-    look = Look(*FALLOFFS[stream.falloff], sign, stream.streak == "exposed", stream.varies)
-    bounds = ranges(stream.count, threads, PROJECTED)
-    results = [(0, 0)] * len(bounds)
+    def run(self) -> None:
+        """Render all at once if the memory allows it, or patch by patch."""
+        scene, whole = self.scene, whole_picture(self.scene.width, self.scene.height)
+        if scene.count * scene.segment_bytes <= self.memory:
+            segments, self.film.dropped = self._segments(whole)
+            tiles = self._tiles(segments, whole, self.memory - scene.segment_bytes // 2 * len(segments.kind))
+            if tiles is not None:
+                self._composite(segments, tiles)
+                return
+            del segments
+        self.listener("survey")
+        counts, self.film.dropped = scene.survey()
+        for patch in patches_within(counts, whole, self.memory, uncut=self.sampler is not None):
+            if counts.memory(patch) > self.memory and self.sampler is None:
+                self._tile_in_slabs(patch, counts)
+                continue
+            segments, _ = self._segments(patch)
+            tiles = self._tiles(segments, patch)
+            assert tiles is not None
+            self._composite(segments, tiles)
 
-    def work(piece: int, start: int, stop: int) -> None:
-        results[piece] = project(table, view, look, start, stop, segments, offset)
+    def _segments(self, patch: Patch) -> tuple[Segments, int]:
+        """Return the segments that may touch a patch, nearest first, and how many particles were dropped."""
+        self.listener("project")
+        segments, rows, dropped = self.scene.segments(patch)
+        self.listener("order")
+        return ordered(segments, rows, self.scene.threads), dropped
 
-    parallel_ranges(work, bounds, threads)
-    firsts = [offset + start for start, _ in bounds]
-    rows = [np.arange(first, first + kept) for first, (kept, _) in zip(firsts, results, strict=True)]
-    return rows, sum(lost for _, lost in results)
+    def _tiles(self, segments: Segments, patch: Patch, memory: float = np.inf) -> Tiles | None:
+        """Return the segments of each tile of a patch, or None if that would take more memory."""
+        self.listener("bin")
+        scene = self.scene
+        perspective, most = scene.view.perspective, memory / MEMBER_BYTES
+        return bin_segments(segments, patch, scene.width, scene.height, perspective, scene.threads, most)
 
+    def _composite(self, segments: Segments, tiles: Tiles) -> None:
+        self.listener("tiles")
+        self.film.fragments += composite(segments, tiles, self.scene.threads, self.film.pixels)
+        if self.sampler is not None:
+            self.listener("samples")
+            for samples in sample_bands(segments, tiles, self.scene.threads):
+                self.sampler(samples)
 
-@compiled
-def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
-    """Copy the segments order[start : stop] to rows start ... stop."""
-    for i in range(start, stop):
-        row, ahead = order[i], order[min(i + AHEAD, stop - 1)]
-        prefetch(source.values, ahead * 16)
-        prefetch(source.pace, ahead)
-        prefetch(source.kind, ahead)
-        for c in range(8):
-            target.places[i, c] = source.places[row, c]
-        target.pace[i] = source.pace[row]
-        target.kind[i] = source.kind[row]
-        if len(source.particle):
-            target.particle[i] = source.particle[row]
-        if len(source.tails):
-            for c in range(4):
-                target.tails[i, c] = source.tails[row, c]
+    def _tile_in_slabs(self, patch: Patch, counts: Counts) -> None:
+        """Render a patch of one tile, a slice of depth after the other."""
+        most = max(int(self.memory) // (counts.segment_bytes + MEMBER_BYTES), 1)
+        slabs = list(slabs_of(self.scene, patch, most))
 
+        def made() -> Iterator[tuple[Segments, Tiles, bool]]:
+            for slab in slabs:
+                self.listener("project")
+                segments, rows = self.scene.slab_segments(patch, slab, most)
+                self.listener("order")
+                segments = ordered(segments, rows, self.scene.threads)
+                tiles = self._tiles(segments, patch)
+                assert tiles is not None
+                self.listener("tiles")
+                yield segments, tiles, slab == slabs[-1]
 
-def _ordered(segments: Segments, rows: np.ndarray, threads: int) -> Segments:
-    """Return the segments of `rows`, nearest first; equals stay in the order of stream and particle."""
-    order = rows[stable_argsort(segments.nearest[rows], threads)]
-    packed = empty_segments(len(rows), len(segments.tails) > 0, len(segments.particle) > 0)
-    bounds = ranges(len(rows), threads, GRAIN)
-    parallel_ranges(lambda _, start, stop: _pack(segments, order, start, stop, packed), bounds, threads)
-    return packed
-
-
-def _composite(segments: Segments, tiles: Tiles, threads: int) -> tuple[np.ndarray, int]:
-    """Return the picture and the number of fragments."""
-    pixels = np.zeros((tiles.height, tiles.width, 4), np.float32)
-    count = len(tiles.starts) - 1
-    overflowed = np.zeros(count * GROUPS, np.bool_)
-    bounds = ranges(count, threads * PIECES if threads > 1 else 1)
-    fragments = [0] * len(bounds)
-
-    def work(piece: int, start: int, stop: int) -> None:
-        fragments[piece] = render_tiles(segments, tiles, start, stop, new_scratch(), overflowed, pixels)
-
-    parallel_ranges(work, bounds, threads)
-    deep = np.flatnonzero(overflowed)
-    deep_fragments = [0] * len(deep)
-
-    def work_deep(piece: int) -> None:
-        planes, light, filled = np.zeros(PLANES * LANES, np.float32), np.zeros(LIGHT, np.float32), np.zeros(LANES, np.int64)
-        deep_fragments[piece] = render_deep(segments, tiles, deep[piece], planes, light, filled, pixels)
-
-    parallel(work_deep, len(deep), threads)
-    return pixels, sum(fragments) + sum(deep_fragments)
+        state = Slabs()
+        self.film.fragments += composite_slabs(made(), state, False, self.film.pixels)
+        if state.overflowed.any():
+            self.film.fragments += composite_slabs(made(), state, True, self.film.pixels)

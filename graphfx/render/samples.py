@@ -19,7 +19,6 @@ import numpy as np
 from graphfx.lanes import compiled, mask_bits, store
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
-from graphfx.render.deep import merge_sort, ordered_bits
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     TILE_HEIGHT,
@@ -29,9 +28,10 @@ from graphfx.render.layer import (
     groups_touched,
     localize,
 )
+from graphfx.render.order import merge_sort, ordered_bits
 from graphfx.render.pending import LANES, PLANES
 from graphfx.render.segments import Segments
-from graphfx.render.tiles import Tiles, lanes_inside
+from graphfx.render.tiles import Tiles, lanes_inside, tile_corner
 from graphfx.store.primitives import offsets
 from graphfx.store.threads import parallel_ranges, ranges
 
@@ -71,7 +71,7 @@ def _count(segments, q, local, group, square, inside, counts, at, width):
 def count_samples(segments, tiles, start, stop, counts):
     """Count the fragments of each pixel of tiles start ... stop - 1, all in one row of tiles."""
     for k in range(start, stop):
-        left, top = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT
+        left, top = tile_corner(tiles, k)
         for place in range(tiles.starts[k], tiles.starts[k + 1]):
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
@@ -129,7 +129,7 @@ def _sort_pixel(words, values, particle, spare_words, spare_values, spare_partic
 def gather_samples(segments, tiles, start, stop, starts, planes, filled, words, values, particle):
     """Write the fragments of tiles start ... stop - 1, of one row, each pixel's from `starts` on, in order of rank."""
     for k in range(start, stop):
-        left, top = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT
+        left, top = tile_corner(tiles, k)
         for place in range(tiles.starts[k], tiles.starts[k + 1]):
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
@@ -158,13 +158,13 @@ def sort_samples(tiles, start, stop, starts, words, values, particle, keys):
 
 
 def sample_bands(segments: Segments, tiles: Tiles, threads: int) -> Iterator[Samples]:
-    """Yield the samples of each row of tiles, from the top."""
-    for row in range(-(-tiles.height // TILE_HEIGHT)):
+    """Yield the samples of each row of a patch's tiles, from the top; the patch is as wide as the picture."""
+    for row in range((len(tiles.starts) - 1) // tiles.across):
         yield _band(segments, tiles, row, threads)
 
 
 def _band(segments: Segments, tiles: Tiles, row: int, threads: int) -> Samples:
-    top, first = row * TILE_HEIGHT, row * tiles.across
+    top, first = (tiles.row + row) * TILE_HEIGHT, row * tiles.across
     counts = np.zeros(min(TILE_HEIGHT, tiles.height - top) * tiles.width, np.int64)
     bounds = [(first + start, first + stop) for start, stop in ranges(tiles.across, threads)]
     parallel_ranges(lambda _, start, stop: count_samples(segments, tiles, start, stop, counts), bounds, threads)

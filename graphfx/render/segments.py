@@ -29,6 +29,11 @@ class Segments(NamedTuple):
     particle: np.ndarray
 
 
+def segment_bytes(varies: bool, sampled: bool) -> int:
+    """Return the most memory that a segment takes while it is put in order: two rows of all columns, and three row numbers."""
+    return 2 * (64 + 16 * varies + 8 * sampled + 9) + 12
+
+
 def empty_segments(count: int, varies: bool, sampled: bool) -> Segments:
     """Return room for `count` segments; colours of tails only if any varies, particles only if they are sampled."""
     places = np.empty((count, 8), np.float64)

@@ -10,6 +10,8 @@ from graphfx.render.falloff import FALLOFFS
 
 Column = np.ndarray | float
 Color = np.ndarray | tuple[float, float, float]
+Vectors = np.ndarray | tuple[np.ndarray, ...]
+"""(3, n), or three arrays of n values."""
 BLENDS = ("over", "add")
 MODES = ("exposed", "solid")
 
@@ -27,13 +29,14 @@ class Streaks:
     | `share` | 0 to 1 | the part of the shutter for which the particle lives (`exposed` only) |
     | `blend` | | `over`, or `add`: shines without hiding what is behind |
     | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc` |
+    | `rows` | | the numbers of those that are drawn, in their order; all if not given |
     | `streak` | | `exposed`: each point has the opacity of the time spent over it; `solid`: full opacity all along |
 
     Fragments of the same depth are in the order of streams and of particles within them.
     """
 
-    head: np.ndarray
-    tail: np.ndarray | None = None
+    head: Vectors
+    tail: Vectors | None = None
     head_radius: Column = 0.01
     tail_radius: Column | None = None
     head_color: Color = (1.0, 1.0, 1.0)
@@ -44,6 +47,7 @@ class Streaks:
     blend: str = "over"
     falloff: str = "linear"
     streak: str = "exposed"
+    rows: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         """Refuse a name that is not known."""
@@ -52,17 +56,22 @@ class Streaks:
                 raise ValueError(f"{name} is {getattr(self, name)!r}; it must be one of {', '.join(known)}")
 
     @property
+    def given(self) -> int:
+        """Return the number of particles of which columns tell."""
+        return len(self.head[0])
+
+    @property
     def count(self) -> int:
-        """Return the number of particles."""
-        return self.head.shape[1]
+        """Return the number of particles that are drawn."""
+        return self.given if self.rows is None else len(self.rows)
 
     @property
     def varies(self) -> bool:
         """Return whether colour or opacity may differ between head and tail."""
         return self.tail_color is not None or self.tail_opacity is not None
 
-    def columns(self) -> list[np.ndarray]:
-        """Return the 17 columns as float32: of n values, or of one where one number serves all.
+    def columns(self, start: int, stop: int) -> list[np.ndarray]:
+        """Return the 17 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
 
         Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share.
         """
@@ -72,11 +81,13 @@ class Streaks:
         tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
         given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
                  self.head_opacity, tail_opacity, self.share]
-        columns = [np.ascontiguousarray(column, np.float32).reshape(-1) for column in given]
-        for column in columns:
-            if column.size not in (1, self.count):
-                raise ValueError(f"a column holds {column.size} values for {self.count} particles")
-        return columns
+        rows = slice(start, stop) if self.rows is None else self.rows[start:stop]
+        return [self._column(np.asarray(column).reshape(-1), rows) for column in given]
+
+    def _column(self, column: np.ndarray, rows: slice | np.ndarray) -> np.ndarray:
+        if column.size not in (1, self.given):
+            raise ValueError(f"a column holds {column.size} values for {self.given} particles")
+        return np.ascontiguousarray(column if column.size == 1 else column[rows], np.float32)
 
 
 def addresses(columns: list[np.ndarray]) -> np.ndarray:

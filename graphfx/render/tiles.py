@@ -24,6 +24,7 @@ from graphfx.render.layer import (
     groups_touched,
     localize,
 )
+from graphfx.render.order import AHEAD
 from graphfx.render.pending import (
     CAPACITY,
     DRIFT,
@@ -39,17 +40,20 @@ from graphfx.render.pending import (
     to_front,
 )
 
-AHEAD = 12
-"""Segments whose memory is fetched ahead."""
 OVERFLOWED = -1
 """Slots of a group that is to be sorted whole."""
 
 
 class Tiles(NamedTuple):
-    """The grid of tiles: the segments of tile k are members[starts[k] : starts[k + 1]], nearest first."""
+    """The tiles of a patch, row by row: the segments of tile k are members[starts[k] : starts[k + 1]], nearest first.
+
+    `column` and `row` are those of the patch's first tile in the picture of width x height pixels, `across` its tiles in a row.
+    """
 
     starts: np.ndarray
     members: np.ndarray
+    column: int
+    row: int
     across: int
     width: int
     height: int
@@ -71,6 +75,12 @@ def new_scratch() -> Scratch:
     """Return scratch for one thread."""
     numbers = np.zeros((4, GROUPS), np.int64)
     return Scratch(np.zeros(GROUPS * LIST, np.float32), np.zeros(GROUPS * LIGHT, np.float32), *numbers)
+
+
+@inner
+def tile_corner(tiles, k):
+    """Return the column and row of tile k's first pixel."""
+    return (tiles.column + k % tiles.across) * TILE_WIDTH, (tiles.row + k // tiles.across) * TILE_HEIGHT
 
 
 @inner
@@ -122,7 +132,8 @@ def write_pixels(light, at, pixels, left, top, inside):
 @inner
 def _finish_tile(tiles, k, scratch, overflowed, pixels):
     """Composite what is pending and write the film; return the fragments of the groups that are done."""
-    left, top, total = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT, 0
+    left, top = tile_corner(tiles, k)
+    total = 0
     for group in range(GROUPS):
         if scratch.counts[group] == OVERFLOWED:
             overflowed[k * GROUPS + group] = True
@@ -135,16 +146,27 @@ def _finish_tile(tiles, k, scratch, overflowed, pixels):
     return total
 
 
+@inner
+def _begin_tile(tiles, k, scratch):
+    """Empty the lists of a tile's groups."""
+    left, top = tile_corner(tiles, k)
+    for group in range(GROUPS):
+        scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = 0
+        scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
+        clear_light(scratch.light, group * LIGHT)
+
+
 @compiled
-def render_tiles(segments, tiles, start, stop, scratch, overflowed, pixels):
-    """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments."""
+def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowed, pixels):
+    """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments.
+
+    Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last.
+    """
     total = 0
     for k in range(start, stop):
-        left, top = k % tiles.across * TILE_WIDTH, k // tiles.across * TILE_HEIGHT
-        for group in range(GROUPS):
-            scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = 0
-            scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
-            clear_light(scratch.light, group * LIGHT)
+        left, top = tile_corner(tiles, k)
+        if begin:
+            _begin_tile(tiles, k, scratch)
         last_place = tiles.starts[k + 1] - 1
         for place in range(tiles.starts[k], last_place + 1):
             ahead = tiles.members[min(place + AHEAD, last_place)]
@@ -155,5 +177,6 @@ def render_tiles(segments, tiles, start, stop, scratch, overflowed, pixels):
             for group in range(first, last + 1):
                 if scratch.counts[group] != OVERFLOWED:
                     _draw(segments, q, local, group, tiles.perspective, scratch)
-        total += _finish_tile(tiles, k, scratch, overflowed, pixels)
+        if finish:
+            total += _finish_tile(tiles, k, scratch, overflowed, pixels)
     return total

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphfx.render import renderer
+from graphfx.render import compositing, order
+from graphfx.render import scene as scenery
 from graphfx.render.camera import Camera
 from graphfx.render.falloff import FALLOFFS
 from graphfx.render.streaks import Streaks
@@ -29,10 +30,10 @@ def total(streak: Streaks) -> float:
 @pytest.mark.parametrize("threads", [2, 7])
 def test_threads_change_no_byte(threads, monkeypatch):
     """Any number of threads gives the same film, deep groups included."""
-    monkeypatch.setattr(renderer, "GRAIN", 16)
-    monkeypatch.setattr(renderer, "PROJECTED", 16)
-    scene = [comets(1, 300), streaks(2, 200, blend="add"), _piercing(300)]
-    alone, together = film(*scene), film(*scene, threads=threads)
+    monkeypatch.setattr(order, "GRAIN", 16)
+    monkeypatch.setattr(scenery, "GRAIN", 16)
+    streams = [comets(1, 300), streaks(2, 200, blend="add"), _piercing(300)]
+    alone, together = film(*streams), film(*streams, threads=threads)
     assert alone.pixels.tobytes() == together.pixels.tobytes()
     assert (alone.fragments, alone.dropped) == (together.fragments, together.dropped)
 
@@ -47,25 +48,25 @@ def _piercing(count: int) -> Streaks:
 def test_lists_that_overflow_are_sorted(monkeypatch):
     """The scene of piercing streaks does overflow the pending lists."""
     numbers = []
-    sort = renderer.render_deep
-    monkeypatch.setattr(renderer, "render_deep", lambda *given: numbers.append(given[2]) or sort(*given))
+    sort = compositing.render_deep
+    monkeypatch.setattr(compositing, "render_deep", lambda *given: numbers.append(given[2]) or sort(*given))
     film(_piercing(300))
     assert numbers
 
 
 def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
     """A group sorted whole holds what its list would have given, to the last bit."""
-    scene = [comets(3, 300), streaks(4, 200, blend="add"), *_tied(200)]
-    normal = film(*scene, camera=FLAT).pixels
-    render_tiles = renderer.render_tiles
+    streams = [comets(3, 300), streaks(4, 200, blend="add"), *_tied(200)]
+    normal = film(*streams, camera=FLAT).pixels
+    render_tiles = compositing.render_tiles
 
     def put_all_aside(*given):
         render_tiles(*given)
-        given[5][:] = True
+        given[7][:] = True
         return 0
 
-    monkeypatch.setattr(renderer, "render_tiles", put_all_aside)
-    assert film(*scene, camera=FLAT).pixels.tobytes() == normal.tobytes()
+    monkeypatch.setattr(compositing, "render_tiles", put_all_aside)
+    assert film(*streams, camera=FLAT).pixels.tobytes() == normal.tobytes()
 
 
 def _tied(count: int) -> list[Streaks]:

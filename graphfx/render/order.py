@@ -1,0 +1,80 @@
+"""Orders of fragments and segments: by key, equals as they come."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from graphfx.lanes import compiled
+from graphfx.lanes.bits import prefetch
+from graphfx.lanes.inner import inner
+from graphfx.render.segments import Segments, empty_segments
+from graphfx.store.primitives import GRAIN
+from graphfx.store.sorting import stable_argsort
+from graphfx.store.threads import parallel_ranges, ranges
+
+AHEAD = 12
+"""Segments whose memory is fetched ahead."""
+
+
+@inner
+def ordered_bits(bits):
+    """Return a uint32 that orders as the float32 of these bits does."""
+    wide = np.uint64(bits)
+    return wide ^ np.uint64(0xFFFFFFFF) if wide >> np.uint64(31) else wide | np.uint64(0x80000000)
+
+
+@inner
+def ordered_word(key):
+    """Return a uint32 that orders as this float32 does."""
+    return ordered_bits(np.float32(key).view(np.uint32))
+
+
+@inner
+def merge_sort(words, spare, count):
+    """Sort words[:count] upwards; runs that already follow each other are left alone."""
+    width = 1
+    while width < count:
+        for start in range(0, count - width, 2 * width):
+            middle, stop = start + width, min(start + 2 * width, count)
+            if words[middle - 1] <= words[middle]:
+                continue
+            for i in range(start, middle):
+                spare[i] = words[i]
+            left, right, at = start, middle, start
+            while left < middle:
+                if right < stop and words[right] < spare[left]:
+                    words[at] = words[right]
+                    right += 1
+                else:
+                    words[at] = spare[left]
+                    left += 1
+                at += 1
+        width *= 2
+
+
+@compiled
+def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
+    """Copy the segments order[start : stop] to rows start ... stop."""
+    for i in range(start, stop):
+        row = order[i]
+        prefetch(source.values, order[min(i + AHEAD, stop - 1)] * 16)
+        for c in range(8):
+            target.places[i, c] = source.places[row, c]
+        target.pace[i] = source.pace[row]
+        target.kind[i] = source.kind[row]
+        if len(source.particle):
+            target.particle[i] = source.particle[row]
+        if len(source.tails):
+            for c in range(4):
+                target.tails[i, c] = source.tails[row, c]
+
+
+def ordered(segments: Segments, rows: np.ndarray, threads: int) -> Segments:
+    """Return the segments of `rows`, nearest first; equals stay in the order of stream and particle."""
+    order = rows[stable_argsort(segments.nearest[rows], threads)]
+    packed = empty_segments(len(rows), len(segments.tails) > 0, len(segments.particle) > 0)
+    bounds = ranges(len(rows), threads, GRAIN)
+    parallel_ranges(lambda _, start, stop: _pack(segments, order, start, stop, packed), bounds, threads)
+    return packed

@@ -1,0 +1,163 @@
+"""The scene: all streams of a picture and its cameras, gone through piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from graphfx.render.camera import Camera
+from graphfx.render.falloff import FALLOFFS
+from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
+from graphfx.render.patches import Counts, Patch, whole_picture
+from graphfx.render.projection import Look, Slab, View, Window, project
+from graphfx.render.segments import Segments, empty_segments, segment_bytes
+from graphfx.render.streaks import Streaks, addresses
+from graphfx.render.survey import count_keys, survey
+from graphfx.store.primitives import offsets
+from graphfx.store.threads import parallel, parallel_ranges, ranges
+
+PIECE = 1 << 17
+"""Particles that are looked at together: their columns are copied where they are not float32."""
+GRAIN = 4096
+"""Fewest particles worth a thread of their own."""
+EVERYWHERE = Slab(False, 0, 0, 0, 0)
+
+
+class Piece(NamedTuple):
+    """Particles start ... stop - 1 of a stream; the first of them is number `first` of all streams."""
+
+    stream: Streaks
+    look: Look
+    first: int
+    start: int
+    stop: int
+
+
+@dataclass
+class Scene:
+    """What is to be seen, and by whom.
+
+    `reaches` holds the first and the last row of tiles that each particle reaches, once they were looked for.
+    """
+
+    view: View
+    width: int
+    height: int
+    pieces: list[Piece]
+    varies: bool
+    sampled: bool
+    threads: int
+    reaches: tuple[np.ndarray, np.ndarray] | None = None
+
+    @property
+    def count(self) -> int:
+        """Return the number of particles."""
+        return self.pieces[-1].first + self.pieces[-1].stop - self.pieces[-1].start if self.pieces else 0
+
+    @property
+    def segment_bytes(self) -> int:
+        """Return the memory that one segment takes while it is put in order."""
+        return segment_bytes(self.varies, self.sampled)
+
+    def window(self, patch: Patch, slab: Slab = EVERYWHERE) -> Window:
+        """Return the part of the picture that is a patch."""
+        nothing = np.empty(0, np.uint16)
+        right, bottom = min(patch.right * TILE_WIDTH, self.width), min(patch.bottom * TILE_HEIGHT, self.height)
+        tops, bottoms = self.reaches or (nothing, nothing)
+        left, top = patch.left * TILE_WIDTH, patch.top * TILE_HEIGHT
+        return Window(left, top, right, bottom, patch.top, patch.bottom - 1, tops, bottoms, slab)
+
+    def segments(self, patch: Patch) -> tuple[Segments, np.ndarray, int]:
+        """Return the segments that may touch a patch: room for them, the rows that they are in, and particles dropped."""
+        window = self.window(patch)
+        rooms = np.array([self._room(piece, patch) for piece in self.pieces], np.int64)
+        starts = offsets(rooms)
+        segments = empty_segments(int(starts[-1]), self.varies, self.sampled)
+        kept, dropped = [0] * len(self.pieces), [0] * len(self.pieces)
+
+        def work(number: int) -> None:
+            if rooms[number]:
+                kept[number], dropped[number] = self._project(self.pieces[number], window, segments, int(starts[number]))
+
+        parallel(work, len(self.pieces), self.threads)
+        rows = [np.arange(start, start + count, dtype=np.uint32) for start, count in zip(starts, kept, strict=False)]
+        return segments, np.concatenate([np.empty(0, np.uint32), *rows]), sum(dropped)
+
+    def slab_segments(self, patch: Patch, slab: Slab, most: int) -> tuple[Segments, np.ndarray]:
+        """Return the segments of a slab of a patch, at most so many."""
+        segments, at = empty_segments(most + 1, self.varies, self.sampled), 0
+        for piece in self.pieces:
+            if slab.start < piece.first + piece.stop - piece.start and piece.first < slab.stop:
+                at += self._project(piece, self.window(patch, slab), segments, at)[0]
+        return segments, np.arange(at, dtype=np.uint32)
+
+    def _room(self, piece: Piece, patch: Patch) -> int:
+        """Return how many particles of a piece may reach a patch."""
+        count = piece.stop - piece.start
+        if self.reaches is None:
+            return count
+        tops, bottoms = (rows[piece.first : piece.first + count] for rows in self.reaches)
+        return int(np.count_nonzero((tops < patch.bottom) & (bottoms >= patch.top)))
+
+    def _project(self, piece: Piece, window: Window, segments: Segments, at: int) -> tuple[int, int]:
+        columns = piece.stream.columns(piece.start, piece.stop)
+        count = piece.stop - piece.start
+        kept, dropped = project(addresses(columns), self.view, piece.look, window, piece.first, count, segments, at)
+        return kept, dropped
+
+    def survey(self) -> tuple[Counts, int]:
+        """Find the rows that each particle reaches, and count what reaches where; return that, and particles dropped."""
+        whole = whole_picture(self.width, self.height)
+        kind = np.uint8 if whole.bottom < 255 else np.uint16
+        reaches = np.full(self.count, whole.bottom, kind), np.zeros(self.count, kind)
+        bounds = ranges(len(self.pieces), self.threads)
+        corners = np.zeros((len(bounds), 4, whole.bottom + 1, whole.right + 1), np.int64)
+        dropped = [0] * len(bounds)
+
+        def work(number: int, first: int, last: int) -> None:
+            for piece in self.pieces[first:last]:
+                columns = piece.stream.columns(piece.start, piece.stop)
+                dropped[number] += survey(
+                    addresses(columns), self.view, piece.look, self.window(whole), piece.first, piece.stop - piece.start,
+                    *reaches, corners[number],
+                )
+
+        parallel_ranges(work, bounds, self.threads)
+        self.reaches = reaches
+        return Counts(corners.sum(axis=0), self.segment_bytes), sum(dropped)
+
+    def key_counts(self, patch: Patch, low: int, high: int, shift: int) -> np.ndarray:
+        """Count the particles that may touch a patch by (key - low) >> shift, keys as ordered bits from low to high."""
+        counts = np.zeros(((high - low) >> shift) + 1, np.int64)
+        for piece in self.pieces:
+            columns = piece.stream.columns(piece.start, piece.stop)
+            window = self.window(patch)
+            count_keys(
+                addresses(columns), self.view, piece.look, window, piece.first, piece.stop - piece.start, low, high, shift, counts
+            )
+        return counts
+
+
+def make_scene(
+    streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int, sampled: bool
+) -> Scene:
+    """Return the scene of some streams."""
+    view = View(
+        head.screen_matrix(width, height), tail.screen_matrix(width, height), head.scale(width), tail.scale(width),
+        *head.planes, head.perspective,
+    )
+    pieces: list[Piece] = []
+    first = 0
+    for stream in streams:
+        sign = -1.0 if stream.blend == "add" else 1.0
+        look = Look(*FALLOFFS[stream.falloff], sign, stream.streak == "exposed", stream.varies)
+        pieces += [
+            Piece(stream, look, first + start, start, stop)
+            for start, stop in ranges(stream.count, max(threads, -(-stream.count // PIECE)), GRAIN)
+            if stop > start
+        ]
+        first += stream.count
+    return Scene(view, width, height, pieces, any(stream.varies for stream in streams), sampled, threads)
