@@ -13,18 +13,16 @@ from graphfx.errors import OutputError, Problem
 
 
 @contextmanager
-def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
-    """Open a stream whose content becomes the file `path` when the block ends well.
+def whole_path(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """Give the path of a file that is yet to be written, and that becomes the file `path` when the block ends well.
 
     If it does not, whatever the reason, nothing is left behind and a former file keeps its content.
     """
     target = Path(path)
     temporary = target.with_name(f".{secrets.token_hex(8)}.part")
     try:
-        with open(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0), 0o666), "wb") as stream:
-            yield stream
-            stream.flush()
-            os.fsync(stream.fileno())
+        yield temporary
+        _keep_content(temporary)
         os.replace(temporary, target)
         _keep_rename(target.parent)
     except OSError as error:
@@ -32,6 +30,24 @@ def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
     finally:
         with suppress(OSError):
             temporary.unlink()
+
+
+@contextmanager
+def whole_file(path: str | os.PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a stream whose content becomes the file `path` when the block ends well, as `whole_path` does."""
+    with whole_path(path) as temporary:
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+        with open(os.open(temporary, flags, 0o666), "wb") as stream:
+            yield stream
+
+
+def _keep_content(file: Path) -> None:
+    """Bring a file's content to the disk, so that its new name never stands for less."""
+    handle = os.open(file, os.O_RDWR)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
 
 
 def _keep_rename(folder: Path) -> None:
