@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from graphfx.graph.names import PICTURES
 from graphfx.node import NUMERIC_TYPES, Library, NodeType, Parameter
 
 _TINTED = {"set": {"color": [1, 0.4, 0.1]}}
@@ -26,6 +27,9 @@ class Sample:
                                        "set": {"position": {"in_sphere": {"radius": 1}}, "velocity": [0, 1, 0]}}
         self.nodes: dict[str, Any] = {"source": self.source}
         self.seen = "source"
+        self.drawn_by = "image"
+        self.after: dict[str, Any] = {}
+        """Nodes that take the image."""
         build = getattr(self, f"_{node_type.kind}", None)
         if build is not None:
             build(node_type)
@@ -33,7 +37,8 @@ class Sample:
     def graph(self) -> dict[str, Any]:
         """Return the graph as JSON data."""
         self.nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
-        self.nodes["frames"] = {"type": "image", "from": self.seen, "camera": "view", "size": [640, 360]}
+        self.nodes["frames"] = {"type": self.drawn_by, "from": self.seen, "camera": "view", "size": [640, 360]}
+        self.nodes |= self.after
         return {"graphfx": 1, "time": {"frames": [1, 48]}, "nodes": self.nodes}
 
     def _values(self, node_type: NodeType) -> None:
@@ -67,6 +72,12 @@ class Sample:
         if node_type.role != "emit":
             self.nodes["made"] = {"type": node_type.name, "from": "source", **self._given(node_type)}
             self.seen = "made"
+
+    def _renders(self, node_type: NodeType) -> None:
+        if node_type.role in PICTURES:
+            self.drawn_by = node_type.name
+        elif node_type.role == "movie":
+            self.after["movie"] = {"type": node_type.name, "image": "frames", "file": "{graph}.webp"}
 
     def _geometry(self, node_type: NodeType) -> None:
         self.nodes["shape"] = {"type": node_type.name, **self._given(node_type)}

@@ -23,7 +23,8 @@ def cooks(subject: Subject) -> None:
     effect = Effect(flatten(document_of(data), subject.library))
     with tempfile.TemporaryDirectory() as folder:
         files = effect.cook(folder, threads=1)
-        assert len(files) == LAST and all(Path(file).stat().st_size for file in files), "its sample wrote no pictures"
+        pictures = LAST * len(effect.plan.stills) + len(effect.plan.movies)
+        assert len(files) == pictures and all(Path(file).stat().st_size for file in files), "its sample wrote no pictures"
     if subject.node_type.kind not in ("values", "geometry") and subject.node_type.role != "stack":
         kept = {effect.flat.nodes[path].node_type.name for path in effect.plan.schedule.order}
         assert subject.node_type.name in kept, "the plan of its sample leaves the node out"

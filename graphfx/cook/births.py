@@ -10,7 +10,8 @@ import numpy as np
 from graphfx.errors import LimitError, Problem
 from graphfx.graph.values import Literal
 from graphfx.motion.clock import Interval
-from graphfx.plan.make import EmitterPlan, plain_value
+from graphfx.plan.make import EmitterPlan
+from graphfx.plan.pictures import plain_value
 
 MOST = 1 << 30
 """Births of one emitter between two frames."""

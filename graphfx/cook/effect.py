@@ -6,8 +6,9 @@ effect.cook("out")
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -19,14 +20,17 @@ from graphfx.cook import warm
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_limits
+from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
 from graphfx.errors import UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
+from graphfx.output.animation import Add
 from graphfx.output.png import eight_bit, write_png
-from graphfx.plan.make import ImagePlan, Plan, make_plan
+from graphfx.plan.make import Plan, make_plan
+from graphfx.plan.pictures import ImagePlan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -78,30 +82,38 @@ class Effect:
         wanted = sorted(set(frames)) if frames is not None else self.frames
         check_files(self.plan, Path(out), wanted)
         written: list[Path] = []
-        for made in self._cooked(Path(out), wanted, threads or available_threads(), limits):
-            written += made.files
-            if report is not None:
-                report(made)
-        return written
+        with closing(self._cooked(Path(out), wanted, threads or available_threads(), limits)) as cooked:
+            for made in cooked:
+                written += made.files
+                if report is not None:
+                    report(made)
+        return written + [movie_file(movie, self.flat.name, Path(out)) for movie in self.plan.movies if wanted]
 
-    def _cooked(self, out: Path, frames: list[int], threads: int, limits: CookLimits | None) -> Iterator[FrameReport]:
-        """Yield the reports of frames as their files are there; a file is written while the next frame is made."""
+    def _cooked(self, out: Path, frames: list[int], threads: int, limits: CookLimits | None) -> Generator[FrameReport]:
+        """Yield the reports of frames as their files are there; a file is written while the next frame is made.
+
+        Movies are there when the last report was taken.
+        """
         wanted = set(self._checked(frames))
         simulation = self.simulation(threads, limits=limits)
-        warming = warm.start() if frames else None
-        with ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as writer:
+        if not frames:
+            return
+        rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
+        warming = warm.start() if rendered else None
+        with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as writer:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
-            for frame in simulation.frames(frames[-1]) if frames else ():
+            for frame in simulation.frames(frames[-1]):
                 if frame not in wanted:
                     continue
                 if warming is not None:
                     warming.wait()
-                films = [(image, draw(image, simulation, frame, threads)) for image in self.plan.images]
-                files = [out / file_name(str(image.value("file")), self.flat.name, frame) for image in self.plan.images]
+                films = {image.node.path: draw(image, simulation, frame, threads) for image in self.plan.images}
+                stills = {out / file_name(str(image.value("file")), self.flat.name, frame): image for image in self.plan.stills}
                 if waiting is not None:
                     yield _finished(*waiting)
-                jobs = [writer.submit(_write, file, *drawn) for file, drawn in zip(files, films, strict=True)]
-                waiting = self._report(frame, simulation, [film for _, film in films], files), jobs
+                jobs = [writer.submit(_write, file, image, films[image.node.path]) for file, image in stills.items()]
+                jobs += [writer.submit(_add, add, image, films[image.node.path]) for image, add in movies]
+                waiting = self._report(frame, simulation, list(films.values()), list(stills)), jobs
             if waiting is not None:
                 yield _finished(*waiting)
 
@@ -173,6 +185,11 @@ def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:
 def _write(file: Path, image: ImagePlan, film: Film) -> None:
     file.parent.mkdir(parents=True, exist_ok=True)
     write_png(file, _exposed(image, film), _background(image))
+
+
+def _add(add: Add, image: ImagePlan, film: Film) -> None:
+    """Add a picture to a movie."""
+    add(eight_bit(_exposed(image, film), _background(image)))
 
 
 def _background(image: ImagePlan) -> tuple[float, float, float] | None:

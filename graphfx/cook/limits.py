@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from graphfx.errors import LimitError, Problem
 from graphfx.graph.values import Keys, Literal, Value
-from graphfx.plan.make import EmitterPlan, ImagePlan, Plan, plain_value
+from graphfx.plan.make import EmitterPlan, Plan
+from graphfx.plan.pictures import ImagePlan, plain_value
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from graphfx.geometry.tables import MeshTables
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.node.declare import TRANSFORM
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.make import plain_value
+from graphfx.plan.pictures import plain_value
 from graphfx.plan.rates import depends_on_time
 from graphfx.program import Call, Function
 

@@ -59,6 +59,10 @@ class Particles:
         rows[self.dying] = False
         return np.flatnonzero(rows)
 
+    def has(self, name: str) -> bool:
+        """Return whether an attribute is known: the plan leaves out what differs and nobody reads."""
+        return name in self.store.columns or name in self.plan.constants
+
     def value(self, name: str) -> Any:
         """Return an attribute: its arrays, or the constant that it is for all."""
         if name in self.store.columns:

@@ -10,9 +10,10 @@ import numpy as np
 from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.simulate import Simulation
 from graphfx.graph.flat import FlatNode
-from graphfx.plan.make import Drawn, ImagePlan, plain_value
+from graphfx.plan.pictures import Drawn, ImagePlan, plain_value
 from graphfx.render.camera import Camera
 from graphfx.render.film import Film
+from graphfx.render.lines import draw_lines
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
 
@@ -32,7 +33,8 @@ def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> 
     reach = shutter / simulation.plan.shutter if simulation.plan.shutter > 0 else 0.0
     streams = [streaks_of(_chosen(simulation, drawn, frame), drawn.looks, time, opening, reach) for drawn in image.streams]
     width, height = (int(number) for number in image.value("size"))
-    return render(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
+    way = draw_lines if image.node.node_type.role == "preview" else render
+    return way(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
 
 
 @dataclass
@@ -86,7 +88,7 @@ def streaks_of(chosen: Chosen, look: dict[str, Any], time: float, opening: float
     return Streaks(
         head=head,
         tail=tail,
-        head_radius=column("radius"),
+        head_radius=column("radius") if particles.has("radius") else 0.0,
         head_color=column("color"),
         head_opacity=column("opacity"),
         tail_radius=at_tail("radius"),

@@ -10,11 +10,11 @@ from graphfx.graph.conditions import check_condition
 from graphfx.graph.items import Item
 from graphfx.graph.model import Entry, Graph, StreamReference
 from graphfx.graph.moments import check_surfaces
-from graphfx.graph.names import LOOKS
+from graphfx.graph.names import LOOKS, PICTURES
 from graphfx.graph.values import Literal, parts_of
 from graphfx.node import NodeType, Parameter
 
-_TAKES_FROM = ("stack", "image", "spawn")
+_TAKES_FROM = ("stack", "spawn", *PICTURES)
 
 
 def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> None:
@@ -32,7 +32,7 @@ def references(checking: Checking, entry: Entry, item: Item, inside: bool) -> No
             checking.complain(item.location, entry.path,
                               f'{entry.type_name} needs "from", the id of the node whose particles it takes')
         else:
-            entry.sources = _streams(checking, given, path, entry.role == "image")
+            entry.sources = _streams(checking, given, path, entry.role in PICTURES)
 
 
 def _group_inputs(checking: Checking, entry: Entry, item: Item, inside: bool) -> None:

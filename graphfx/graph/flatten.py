@@ -23,7 +23,7 @@ from graphfx.graph.document import Document, load_document
 from graphfx.graph.flat import Cluster, FlatGraph, FlatNode
 from graphfx.graph.limits import Limits
 from graphfx.graph.model import Entry, Graph
-from graphfx.graph.names import REFERENCE_TYPES
+from graphfx.graph.names import OUTPUTS, REFERENCE_TYPES
 from graphfx.graph.overrides import override
 from graphfx.graph.own import CLUSTER_BY, CLUSTER_COUNT, check_inherited
 from graphfx.graph.scope import particle_reader
@@ -68,7 +68,7 @@ class Flattener:
     def _one(self, instance: Instance, entry: Entry, gate: Gate) -> None:
         if entry.group is not None:
             self.flatten(instance.groups[entry.place], gate)
-        elif not (instance.prefix and entry.role == "image") and (entry.kind != "selectors" or entry.sources):
+        elif not (instance.prefix and entry.role in OUTPUTS) and (entry.kind != "selectors" or entry.sources):
             self._add(instance, entry, gate)
 
     def _add(self, instance: Instance, entry: Entry, gate: Gate) -> None:

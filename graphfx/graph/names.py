@@ -29,6 +29,7 @@ KEYS = {
     "fade": ("type", "id", "doc", "from", "only", "during", "enabled", "seed_key", "set"),
     "group": ("type", "id", "doc", "from", "inputs", "only", "during", "enabled", "seed_key"),
     "image": ("type", "doc", "from", "enabled"),
+    "preview": ("type", "doc", "from", "enabled"),
     "emitters": ("type", "doc", "from", "during", "enabled", "seed_key", "values", "set"),
     "selectors": ("type", "doc", "from", "seed_key", "per"),
     "renders": ("type", "doc", "enabled"),
@@ -48,6 +49,10 @@ CONDITIONS = ("all", "any", "not")
 """Conditions made of conditions, in `only`."""
 TAIL = ("tail.radius", "tail.color", "tail.opacity")
 """What the operator `set` may set of the tail alone."""
+PICTURES = ("image", "preview")
+"""Roles of the nodes that draw streams into pictures."""
+OUTPUTS = (*PICTURES, "movie")
+"""Roles of the nodes that write files; all others live only through them, and inside a group they are passed over."""
 LOOKS = {"blend": ("over", "add"), "falloff": ("linear", "gaussian", "disc"), "streak": ("exposed", "solid")}
 """What an entry of an image's `from` may say, the default first."""
 

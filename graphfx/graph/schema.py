@@ -18,6 +18,7 @@ from graphfx.graph.names import (
     METHODS,
     MOMENTS,
     PARAM_TYPES,
+    PICTURES,
     REFERENCE_TYPES,
     REPEATS,
     SCOPES,
@@ -146,7 +147,7 @@ def _common(node_type: NodeType) -> Schema:
     stream = {"$ref": "#/$defs/stream"}
     look = _closed({"stream": stream, **{key: {"enum": list(choices), "default": choices[0]} for key, choices in LOOKS.items()}},
                    ("stream",))
-    source = {"anyOf": [stream, look]} if node_type.role == "image" else stream
+    source = {"anyOf": [stream, look]} if node_type.role in PICTURES else stream
     return {
         "type": {"const": node_type.name},
         "id": {"type": "string", "pattern": f"^{ID.pattern}$", "description": "By default the type."},

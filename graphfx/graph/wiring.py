@@ -8,6 +8,7 @@ from graphfx.errors import LimitError, Location, Problem
 from graphfx.graph.check_values import default_value
 from graphfx.graph.checking import Checking
 from graphfx.graph.model import Entry, Graph, StreamReference
+from graphfx.graph.names import PICTURES
 from graphfx.graph.substitute import Substitution
 from graphfx.graph.values import Value
 
@@ -66,7 +67,7 @@ class Wiring:
             if len(entry.group.outputs) == 1:
                 instance.ends[name] = instance.ends[f"{name}.{next(iter(entry.group.outputs))}"]
             return
-        if entry.role == "image":
+        if entry.role in PICTURES:
             pairs = [(path, reference.looks) for reference in entry.sources for path in instance.ends[str(reference)]]
             instance.sources[entry.place] = tuple(path for path, _ in pairs)
             instance.looks[entry.place] = tuple(look for _, look in pairs)

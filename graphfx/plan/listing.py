@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.make import EmitterPlan, ImagePlan, Plan
+from graphfx.plan.make import EmitterPlan, Plan
+from graphfx.plan.pictures import ImagePlan
 from graphfx.program import Call, Draw, Function, Instruction, Loop, Operand, Program, Uniform
 
 REALS = {"float": 1, "vec3": 3, "color": 3}
@@ -47,6 +48,7 @@ def plan_data(plan: Plan) -> dict[str, Any]:
         "time": time,
         "nodes": nodes,
         "images": [_image_data(image) for image in plan.images],
+        "movies": [{"path": movie.node.path, "image": movie.image.node.path} for movie in plan.movies],
         "emitters": [_emitter_data(emitter, plan.precision) for emitter in plan.emitters.values()],
     }
 
@@ -54,6 +56,7 @@ def plan_data(plan: Plan) -> dict[str, Any]:
 def _image_data(image: ImagePlan) -> dict[str, Any]:
     return {
         "path": image.node.path,
+        "type": image.node.node_type.name,
         "size": [int(number) for number in image.value("size")],
         "camera": image.camera.path,
         "draws": list(dict.fromkeys(drawn.path for drawn in image.streams)),
@@ -93,7 +96,8 @@ def listing(plan: Plan, source: Callable[[Function], str] | None = None) -> str:
     lines = [_title(data), "", "nodes", *_node_lines(data["nodes"])]
     for image in data["images"]:
         size, drawn = " x ".join(map(str, image["size"])), ", ".join(image["draws"]) or "nothing"
-        lines += ["", f"image {image['path']}: {size}, seen from {image['camera']}, draws {drawn}"]
+        lines += ["", f"{image['type']} {image['path']}: {size}, seen from {image['camera']}, draws {drawn}"]
+    lines += [f"movie {movie['path']}: the pictures of {movie['image']}" for movie in data["movies"]]
     for emitter in data["emitters"]:
         lines += ["", *_emitter_lines(emitter)]
     if source is not None:

@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.names import OUTPUTS, PICTURES
 from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
 from graphfx.plan.birth import BirthWriter
-from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
 from graphfx.plan.liveness import Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
 from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
+from graphfx.plan.pictures import READ, Drawn, ImagePlan, MoviePlan, image_plan
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
-from graphfx.plan.sources import Sources, either
+from graphfx.plan.sources import Sources
 from graphfx.plan.spawning import SpawnPlan, SpawnWriter
 from graphfx.plan.steps import FrameWriter
 from graphfx.plan.support import MOVING_ROLES, check_names, check_support
 from graphfx.program import Program
-
-DRAWN = ("position", "radius", "color", "opacity")
-"""Attributes that a picture reads."""
 
 
 @dataclass
@@ -87,29 +85,6 @@ class EmitterPlan:
 
 
 @dataclass
-class Drawn:
-    """One stream of an image: a source's particles, all or those that a program selects, with how they look."""
-
-    path: str
-    looks: dict[str, Any]
-    condition: Value | None = None
-    selection: FrameProgram | None = None
-
-
-@dataclass
-class ImagePlan:
-    """One image: `streams` are the particles that it draws."""
-
-    node: FlatNode
-    camera: FlatNode
-    streams: list[Drawn]
-
-    def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
-        """Return one of the image's parameters."""
-        return plain_value(self.node.arguments[name], time, frame)
-
-
-@dataclass
 class Plan:
     """A whole graph, ready to cook; `emitters` are all sources of particles, parents first."""
 
@@ -117,6 +92,13 @@ class Plan:
     schedule: Schedule
     emitters: dict[str, EmitterPlan]
     images: list[ImagePlan]
+    movies: list[MoviePlan] = field(default_factory=list)
+
+    @property
+    def stills(self) -> list[ImagePlan]:
+        """Return the images whose pictures are files: those that no movie takes, and those that name their files."""
+        taken = [movie.image for movie in self.movies]
+        return [image for image in self.images if image not in taken or "file" in image.node.given]
 
     @property
     def precision(self) -> int:
@@ -129,13 +111,6 @@ class Plan:
         return max((float(image.value("shutter")) for image in self.images), default=0.0)
 
 
-def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
-    """Return a value that no particle has a part in; text and lists as they are."""
-    if isinstance(value, Literal):
-        return value.value
-    return timed_value(value, time, frame)
-
-
 def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     """Plan a flattened graph.
 
@@ -145,27 +120,14 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
     sources = Sources(flat, schedule)
-    images = [_image(flat.nodes[path], sources) for path in schedule.order if flat.nodes[path].node_type.role == "image"]
+    outputs = [flat.nodes[path] for path in schedule.order if flat.nodes[path].node_type.role in OUTPUTS]
+    images = {node.path: image_plan(node, sources) for node in outputs if node.node_type.role in PICTURES}
+    movies = [MoviePlan(node, images[node.references["image"]]) for node in outputs if node.node_type.role == "movie"]
     holders = find_holders(sources)
     check_names(holders, flat)
-    planner = _Planner(flat, images, holders, prune)
+    planner = _Planner(flat, list(images.values()), holders, prune)
     emitters = {path: planner.emitter(path) for path in reversed(holders)}
-    return Plan(flat, schedule, {path: emitters[path] for path in holders}, images)
-
-
-def _image(node: FlatNode, sources: Sources) -> ImagePlan:
-    streams: list[Drawn] = []
-    for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
-        for top in sources.schedule.kept(source, sources.flat):
-            for path, condition in sources.reaching(top).items():
-                if any(path == drawn.path and drawn.condition is None for drawn in streams):
-                    continue
-                same = [drawn for drawn in streams if drawn.path == path and drawn.looks == dict(look)]
-                for drawn in same:
-                    drawn.condition = either(drawn.condition, condition)
-                if not same:
-                    streams.append(Drawn(path, dict(look), condition))
-    return ImagePlan(node, sources.flat.nodes[node.references["camera"]], streams)
+    return Plan(flat, schedule, {path: emitters[path] for path in holders}, list(images.values()), movies)
 
 
 class _Planner:
@@ -243,8 +205,9 @@ class _Planner:
     def _attributes(self, holder: Holder, drawn: list[Drawn], motion_blur: bool) -> Attributes:
         """Find what is stored, and what that asks of the parents."""
         reading = Reading(holder)
-        if drawn:
-            reading.note([*DRAWN, "tail.radius", "tail.color", "tail.opacity"], "the renderer")
+        for image in self.images:
+            if any(each.path == holder.path for each in image.streams):
+                reading.note(READ[image.node.node_type.role], "the renderer")
         for each in drawn:
             if each.condition is not None:
                 reading.note(names_in(each.condition) | ({"id"} if draws_in(each.condition) else set()), "what is drawn")

@@ -10,11 +10,9 @@ import networkx
 
 from graphfx.errors import GraphError, Location, Problem
 from graphfx.graph.flat import FlatGraph, FlatNode
+from graphfx.graph.names import OUTPUTS
 from graphfx.graph.values import Literal, children
 from graphfx.plan.evaluate import holds
-
-OUTPUT_ROLES = ("image",)
-"""Roles of the nodes that write something; all others live only through them."""
 
 
 @dataclass
@@ -47,6 +45,9 @@ class Schedule:
 def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Schedule:
     """Drop what does nothing or is not needed, and order the rest; ties keep the document's order."""
     dropped = {path: reason for path, node in flat.nodes.items() if (reason := _idle(node, flat, precision, prune))}
+    for path, node in flat.nodes.items():
+        if node.node_type.role == "movie" and node.references["image"] in dropped:
+            dropped.setdefault(path, f"its image '{node.references['image']}' is not drawn")
     through = {
         path: tuple(source for given in node.sources for source in _pass_over(given, flat, dropped))
         for path, node in flat.nodes.items()
@@ -55,7 +56,7 @@ def make_schedule(flat: FlatGraph, precision: int, *, prune: bool = True) -> Sch
     edges.add_nodes_from(flat.nodes)
     for path, node in flat.nodes.items():
         edges.add_edges_from((source, path) for source in (*through[path], *node.references.values(), *_meshes(node)))
-    outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUT_ROLES and path not in dropped]
+    outputs = [path for path, node in flat.nodes.items() if node.node_type.role in OUTPUTS and path not in dropped]
     if not outputs:
         message = "the graph has no output: give it an enabled node of type 'image'"
         raise GraphError(Problem(message, Location(flat.file), "nodes"))

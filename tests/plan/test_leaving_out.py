@@ -46,6 +46,17 @@ def columns(*given: Any, **more: Any) -> set[str]:
     return set(plan(*given, **more).emitters["sky"].attributes.columns)
 
 
+def test_preview_needs_no_radius() -> None:
+    """A preview stores neither the radius nor what is set of the tail alone, unless something else reads them."""
+    varied = {"set": {"position": {"in_box": {}}, "velocity": {"in_box": {}}, "radius": RAND, "opacity": RAND}}
+    ops = [{"type": "gravity"}, {"type": "set", "set": {"tail.color": {"expr": "velocity"}, "tail.opacity": RAND}}]
+    assert columns(ops, varied) == {"position", "velocity", "radius", "opacity", "tail", "tail.color", "tail.opacity", "id"}
+    assert columns(ops, varied, {"type": "preview"}) == {"position", "velocity", "opacity", "tail", "id"}
+    grows = [{"type": "gravity"}, {"type": "vortex", "magnitude": {"expr": "radius"}}]
+    assert "radius" in columns(grows, varied, {"type": "preview"})
+    assert "radius" in columns(ops, varied, {"type": "preview"}, {"other": {"type": "image", "from": "sky", "camera": "view"}})
+
+
 GRAVITY, SPIRAL, VORTEX = {"type": "gravity"}, {"type": "spiral"}, {"type": "vortex"}
 SETS = {"position": {"in_box": {}}, "velocity": {"in_box": {}}, "spiral_axis": {"in_box": {}}}
 STORED: dict[str, tuple[tuple[Any, ...], dict[str, Any], set[str]]] = {

@@ -1,0 +1,61 @@
+"""Movies: what keeps one from being written, and how the pictures of a cook get into them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from pathlib import Path, PurePath
+
+from graphfx.output.animation import LARGEST_WEBP, Add, animated_png, animated_webp
+from graphfx.output.video import h264, has_video, prores, video
+from graphfx.plan.make import Plan
+from graphfx.plan.pictures import ImagePlan, MoviePlan
+
+Open = Callable[[Path, float, float, bool], AbstractContextManager[Add]]
+"""Opens a movie: its file, its frames per second, its quality, and whether its pictures have alpha."""
+KINDS: Mapping[str, Open] = {
+    ".mp4": lambda path, fps, quality, alpha: video(path, fps, h264(quality)),
+    ".mov": lambda path, fps, quality, alpha: video(path, fps, prores(alpha)),
+    ".webp": lambda path, fps, quality, alpha: animated_webp(path, fps, quality),
+    ".png": lambda path, fps, quality, alpha: animated_png(path, fps),
+}
+"""What a movie is, by the suffix of its file."""
+
+
+def movie_file(movie: MoviePlan, graph: str, out: Path) -> Path:
+    """Return where a movie is written."""
+    return out / str(movie.value("file")).replace("{graph}", graph)
+
+
+def fault_of_movie(movie: MoviePlan, name: str) -> str:
+    """Return what keeps a movie from being written under a name, or nothing."""
+    suffix, image = PurePath(name).suffix.lower(), movie.image
+    width, height = (int(number) for number in image.value("size"))
+    size = f"the pictures of '{image.node.path}' are {width} x {height}"
+    if suffix not in KINDS:
+        return f"movies are written as {', '.join(KINDS)}; let the name end in one of them"
+    if "#" in name:
+        return "a movie is one file for all frames; leave # out of its name"
+    if suffix in (".mp4", ".mov") and not has_video():
+        return f"{suffix} needs PyAV; install it with: pip install 'graphfx[video]', or write .webp"
+    if suffix == ".mp4" and image.value("transparent"):
+        return f"H.264 has no alpha, and '{image.node.path}' is transparent; write .mov, .webp or .png"
+    if suffix == ".mp4" and (width % 2 or height % 2):
+        return f"H.264 needs an even width and height, and {size}; change the size, or write .mov, .webp or .png"
+    if suffix == ".webp" and max(width, height) > LARGEST_WEBP:
+        return f"a WebP is {LARGEST_WEBP} pixels wide and high at most, and {size}; write .png or .mp4"
+    return ""
+
+
+@contextmanager
+def open_movies(plan: Plan, out: Path) -> Iterator[list[tuple[ImagePlan, Add]]]:
+    """Give for each movie its image, and what adds a picture; the files are there when the block ends well, and only then."""
+    with ExitStack() as files:
+        opened = []
+        for movie in plan.movies:
+            path = movie_file(movie, plan.flat.name, out)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            make = KINDS[path.suffix.lower()]
+            way = make(path, plan.flat.time.fps, float(movie.value("quality")), bool(movie.image.value("transparent")))
+            opened.append((movie.image, files.enter_context(way)))
+        yield opened

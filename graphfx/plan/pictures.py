@@ -1,0 +1,76 @@
+"""The pictures of a plan: whose particles each draws, and what it reads of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from graphfx.graph.flat import FlatNode
+from graphfx.graph.values import Literal, Value
+from graphfx.plan.evaluate import timed_value
+from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.sources import Sources, either
+
+READ = {
+    "image": ("position", "radius", "color", "opacity", "tail.radius", "tail.color", "tail.opacity"),
+    "preview": ("position", "color", "opacity"),
+}
+"""Attributes that a picture reads, by the role of the node that draws it."""
+
+
+@dataclass
+class Drawn:
+    """One stream of an image: a source's particles, all or those that a program selects, with how they look."""
+
+    path: str
+    looks: dict[str, Any]
+    condition: Value | None = None
+    selection: FrameProgram | None = None
+
+
+@dataclass
+class ImagePlan:
+    """One image: `streams` are the particles that it draws."""
+
+    node: FlatNode
+    camera: FlatNode
+    streams: list[Drawn]
+
+    def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
+        """Return one of the image's parameters."""
+        return plain_value(self.node.arguments[name], time, frame)
+
+
+@dataclass
+class MoviePlan:
+    """One movie, and the image whose pictures it takes."""
+
+    node: FlatNode
+    image: ImagePlan
+
+    def value(self, name: str) -> Any:
+        """Return one of the movie's parameters."""
+        return plain_value(self.node.arguments[name])
+
+
+def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
+    """Return a value that no particle has a part in; text and lists as they are."""
+    if isinstance(value, Literal):
+        return value.value
+    return timed_value(value, time, frame)
+
+
+def image_plan(node: FlatNode, sources: Sources) -> ImagePlan:
+    """Return the plan of a node that draws."""
+    streams: list[Drawn] = []
+    for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
+        for top in sources.schedule.kept(source, sources.flat):
+            for path, condition in sources.reaching(top).items():
+                if any(path == drawn.path and drawn.condition is None for drawn in streams):
+                    continue
+                same = [drawn for drawn in streams if drawn.path == path and drawn.looks == dict(look)]
+                for drawn in same:
+                    drawn.condition = either(drawn.condition, condition)
+                if not same:
+                    streams.append(Drawn(path, dict(look), condition))
+    return ImagePlan(node, sources.flat.nodes[node.references["camera"]], streams)
