@@ -31,7 +31,6 @@ from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.render.camera import Camera
 from graphfx.render.film import Film
-from graphfx.render.projection import View
 from graphfx.render.streaks import Streaks, addresses
 from graphfx.store.threads import parallel_ranges, ranges
 
@@ -49,6 +48,18 @@ MARGIN = 2
 """Pixels around the picture, and around a band of its rows, that a line may touch and nobody sees."""
 OUTSIDE = 2.0
 """Pixels around the picture to which lines are cut: more than a line's width."""
+
+
+class Screen(NamedTuple):
+    """The two cameras, the planes between which they see, and the picture."""
+
+    head: np.ndarray
+    tail: np.ndarray
+    near: float
+    far: float
+    perspective: bool
+    width: int
+    height: int
 
 
 class Lines(NamedTuple):
@@ -69,10 +80,8 @@ def draw_lines(
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:
         raise ValueError("a camera's projection cannot change while the shutter is open")
-    view = View(
-        head_camera.screen_matrix(width, height), tail_camera.screen_matrix(width, height), head_camera.scale(width),
-        tail_camera.scale(width), *head_camera.planes, head_camera.perspective, width, height,
-    )
+    view = Screen(head_camera.screen_matrix(width, height), tail_camera.screen_matrix(width, height), *head_camera.planes,
+                  head_camera.perspective, width, height)
     count = sum(stream.count for stream in streams)
     lines = Lines(np.empty((count, 4), np.float32), np.empty((count, 4), np.float32), np.empty((count, 2), np.int32))
     spans: list[tuple[int, int]] = []
@@ -94,16 +103,15 @@ def draw_lines(
     return Film(pixels, sum(fragments), dropped)
 
 
-def _project(stream: Streaks, view: View, lines: Lines, offset: int, threads: int) -> tuple[list[tuple[int, int]], int]:
+def _project(stream: Streaks, view: Screen, lines: Lines, offset: int, threads: int) -> tuple[list[tuple[int, int]], int]:
     """Write a stream's lines from row `offset` on; return the spans of rows written, and how many particles were dropped."""
-    columns = stream.columns()
-    table = addresses(columns)
     bounds = ranges(stream.count, threads, PROJECTED)
     results = [(0, 0)] * len(bounds)
     adds = stream.blend == "add"
 
     def work(piece: int, start: int, stop: int) -> None:
-        results[piece] = project_lines(table, view, adds, start, stop, lines, offset)
+        columns = stream.columns(start, stop)
+        results[piece] = project_lines(addresses(columns), view, adds, stop - start, lines, offset + start)
 
     parallel_ranges(work, bounds, threads)
     spans = [(offset + start, offset + start + kept) for (start, _), (kept, _) in zip(bounds, results, strict=True)]
@@ -170,10 +178,10 @@ def _finite(columns, i):
 
 
 @compiled
-def project_lines(columns, view, adds, start, stop, lines, offset):
-    """Write the lines of particles start ... stop from row offset + start on; return how many, and how many were dropped."""
-    at, dropped = offset + start, 0
-    for i in range(start, stop):
+def project_lines(columns, view, adds, count, lines, first):
+    """Write the lines of particles from row `first` on; return how many, and how many were dropped."""
+    at, dropped = first, 0
+    for i in range(count):
         if not _finite(columns, i):
             dropped += 1
             continue
@@ -189,7 +197,7 @@ def project_lines(columns, view, adds, start, stop, lines, offset):
         lines.rows[at, 0] = math.floor(min(y0, y1)) - 2
         lines.rows[at, 1] = math.floor(max(y0, y1)) + 3
         at += 1
-    return at - offset - start, dropped
+    return at - first, dropped
 
 
 @inner
