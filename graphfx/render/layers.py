@@ -1,0 +1,270 @@
+"""Layers: the fragments of polygons, made tile by tile, in order for each pixel.
+
+A fragment has the samples in which its triangle is seen, and key, opacity and colour of the triangle at their mean
+place. A pixel's fragments are in the order of (key, triangle). Behind a group of pixels that are covered whole, in all
+their samples, by fragments of opacity exactly 1, nothing is seen: the farthest of their keys is its limit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from graphfx.lanes import compiled
+from graphfx.lanes.inner import inner
+from graphfx.render.camera import Camera
+from graphfx.render.coverage import ALL
+from graphfx.render.deep import merge_sort, ordered_bits
+from graphfx.render.layer import GROUPS, TILE_HEIGHT, TILE_WIDTH
+from graphfx.render.pending import LANES
+from graphfx.render.polygons import Lighting, Polygons
+from graphfx.render.resolve import (
+    PIXELS,
+    Room,
+    clear_depths,
+    enter_depths,
+    pixels_touched,
+    samples_before,
+    samples_named,
+    shape_of,
+)
+from graphfx.render.shading import Looks, middle, shade
+from graphfx.render.textures import tables
+from graphfx.render.triangle_bins import TriangleBins, bin_triangles
+from graphfx.render.triangles import Triangles, project_polygons
+from graphfx.store.threads import parallel_ranges, ranges
+
+PIECES = 8
+"""Pieces of a patch for each thread."""
+FIRST_CAPACITY = 4096
+
+
+class Layers(NamedTuple):
+    """The fragments of a range of tiles, and the limits of their groups.
+
+    Tile `first` + i has the row rows[i] of `firsts`, or none, -1; its pixel p (8 to a row) has the fragments
+    firsts[row, p] : firsts[row, p + 1], nearest first: keys, samples as bits, and (opacity, red, green, blue).
+    """
+
+    first: int
+    rows: np.ndarray
+    firsts: np.ndarray
+    keys: np.ndarray
+    masks: np.ndarray
+    values: np.ndarray
+    limits: np.ndarray
+
+
+class Fragments(NamedTuple):
+    """Room for the fragments of one tile as they are found, in the order of triangles."""
+
+    pixels: np.ndarray
+    triangles: np.ndarray
+    masks: np.ndarray
+    keys: np.ndarray
+    key_bits: np.ndarray
+    values: np.ndarray
+    words: np.ndarray
+    spare: np.ndarray
+
+
+@inner
+def _depths(triangles, members, room, left, top):
+    """Resolve the opaque triangles of a tile; return the most fragments that it can have."""
+    clear_depths(room)
+    most = 0
+    for number in range(members.shape[0]):
+        t = members[number]
+        shape = shape_of(triangles.places[t], room, left, top)
+        most += pixels_touched(shape)
+        if triangles.opaque[t]:
+            enter_depths(shape, room, number, left, top)
+    return most
+
+
+@inner
+def _find(triangles, members, room, left, top, made):
+    """Write the fragments of a tile; return how many."""
+    count = 0
+    for number in range(members.shape[0]):
+        t = members[number]
+        shape = shape_of(triangles.places[t], room, left, top)
+        for row in range(shape.top, shape.bottom + 1):
+            for column in range(shape.left, shape.right + 1):
+                pixel = row * TILE_WIDTH + column
+                if triangles.opaque[t]:
+                    bits = samples_named(room, pixel, number)
+                else:
+                    bits = samples_before(shape, room, number, pixel, left + column, top + row)
+                if bits:
+                    made.pixels[count], made.triangles[count], made.masks[count] = pixel, t, bits
+                    count += 1
+    return count
+
+
+@inner
+def _shade(triangles, looks, left, top, made, count):
+    """Give fragments their keys and looks."""
+    for i in range(count):
+        across, down = middle(np.int64(made.masks[i]))
+        x = left + made.pixels[i] % TILE_WIDTH + across
+        y = top + made.pixels[i] // TILE_WIDTH + down
+        made.keys[i] = shade(triangles, looks, made.triangles[i], x, y, made.values[i]) + np.float32(0.0)
+
+
+@inner
+def _sort(made, count, firsts, at, keys, masks, values):
+    """Put fragments that are seen in order at row `at` of the output, and note each pixel's first; return the next row."""
+    for pixel in range(PIXELS + 1):
+        firsts[pixel] = 0
+    for i in range(count):
+        if made.values[i, 0] > 0.0:
+            firsts[made.pixels[i] + 1] += 1
+    for pixel in range(PIXELS):
+        firsts[pixel + 1] += firsts[pixel]
+    for i in range(count):
+        if made.values[i, 0] > 0.0:
+            pixel = made.pixels[i]
+            made.words[firsts[pixel]] = ordered_bits(made.key_bits[i]) << np.uint64(32) | np.uint64(i)
+            firsts[pixel] += 1
+    start = 0
+    for pixel in range(PIXELS):
+        stop = firsts[pixel]
+        merge_sort(made.words[start:stop], made.spare, stop - start)
+        firsts[pixel] = at + start
+        start = stop
+    firsts[PIXELS] = at + start
+    for place in range(start):
+        i = np.int64(made.words[place] & np.uint64(0xFFFFFFFF))
+        keys[at + place], masks[at + place] = made.keys[i], made.masks[i]
+        for c in range(4):
+            values[at + place, c] = made.values[i, c]
+    return at + start
+
+
+@inner
+def _closing_key(keys, masks, values, start, stop):
+    """Return the key at which fragments of opacity 1 have covered a pixel whole; infinity if they never do."""
+    covered = 0
+    for i in range(start, stop):
+        if values[i, 0] == 1.0:
+            covered |= np.int64(masks[i])
+        if covered == ALL:
+            return keys[i]
+    return np.float32(np.inf)
+
+
+@inner
+def _limit(firsts, keys, masks, values, group, columns, rows):
+    """Return a group's limit; of its pixels only those in the picture count, `columns` by `rows` of the tile."""
+    limit = np.float32(-np.inf)
+    for pixel in range(group * LANES, (group + 1) * LANES):
+        if pixel % TILE_WIDTH < columns and pixel // TILE_WIDTH < rows:
+            limit = max(limit, _closing_key(keys, masks, values, firsts[pixel], firsts[pixel + 1]))
+    return limit
+
+
+@compiled
+def _room():
+    names, name = np.empty(PIXELS * 16, np.int32), np.empty(1, np.int32)
+    depths = np.empty(PIXELS * 16, np.float32)
+    return Room(np.empty(48), np.empty(16, np.float32), depths, names, names.view(np.float32), name, name.view(np.float32))
+
+
+@compiled
+def _fragments(capacity):
+    keys, words = np.empty(capacity, np.float32), np.empty(capacity, np.uint64)
+    return Fragments(
+        np.empty(capacity, np.int32), np.empty(capacity, np.int32), np.empty(capacity, np.uint16), keys, keys.view(np.uint32),
+        np.empty((capacity, 4), np.float32), words, np.empty(capacity, np.uint64),
+    )
+
+
+@compiled
+def _grown(array, used, capacity):
+    made = np.empty((capacity, *array.shape[1:]), array.dtype)
+    made[:used] = array[:used]
+    return made
+
+
+@compiled
+def _make(triangles, looks, bins, start, stop):
+    """Return the layers of tiles start ... stop."""
+    rows, limits = np.full(stop - start, -1, np.int32), np.full((stop - start, GROUPS), np.inf, np.float32)
+    firsts = np.empty((np.count_nonzero(bins.starts[start + 1 : stop + 1] > bins.starts[start:stop]), PIXELS + 1), np.int64)
+    keys, masks = np.empty(FIRST_CAPACITY, np.float32), np.empty(FIRST_CAPACITY, np.uint16)
+    values = np.empty((FIRST_CAPACITY, 4), np.float32)
+    room, made = _room(), _fragments(FIRST_CAPACITY)
+    row, at = 0, 0
+    for k in range(start, stop):
+        members = bins.members[bins.starts[k] : bins.starts[k + 1]]
+        if members.shape[0] == 0:
+            continue
+        left, top = k % bins.across * TILE_WIDTH, k // bins.across * TILE_HEIGHT
+        most = _depths(triangles, members, room, np.float64(left), np.float64(top))
+        if most > made.keys.shape[0]:
+            made = _fragments(2 * most)
+        count = _find(triangles, members, room, np.float64(left), np.float64(top), made)
+        _shade(triangles, looks, left, top, made, count)
+        if at + count > keys.shape[0]:
+            capacity = 2 * (at + count)
+            keys, masks, values = _grown(keys, at, capacity), _grown(masks, at, capacity), _grown(values, at, capacity)
+        at = _sort(made, count, firsts[row], at, keys, masks, values)
+        for group in range(GROUPS):
+            limits[k - start, group] = _limit(firsts[row], keys, masks, values, group, bins.width - left, bins.height - top)
+        rows[k - start] = row
+        row += 1
+    return Layers(start, rows, firsts, keys[:at], masks[:at], values[:at], limits)
+
+
+class Surfaces:
+    """All polygons of a picture on the screen, of which layers are made patch by patch."""
+
+    def __init__(
+        self, given: Sequence[Polygons], lighting: Lighting, camera: Camera, width: int, height: int, threads: int = 1
+    ):
+        """Project and bin; `dropped` triangles have numbers that are not finite."""
+        self.triangles: Triangles
+        self.bins: TriangleBins
+        self.triangles, self.dropped = project_polygons(given, camera, width, height, threads)
+        self.bins = bin_triangles(self.triangles, width, height, threads)
+        self.looks = _looks(given, lighting, camera)
+
+    def layers(self, first: int, last: int, threads: int = 1) -> Layers:
+        """Return the layers of tiles first ... last - 1."""
+        bounds = [(first + a, first + b) for a, b in ranges(last - first, threads * PIECES if threads > 1 else 1)]
+        made: list[Layers] = [None] * len(bounds)  # type: ignore[list-item]
+
+        def work(piece: int, start: int, stop: int) -> None:
+            made[piece] = _make(self.triangles, self.looks, self.bins, start, stop)
+
+        parallel_ranges(work, bounds, threads)
+        return made[0] if len(made) == 1 else _joined(made)
+
+
+def _joined(parts: list[Layers]) -> Layers:
+    """Return the layers of ranges that follow each other as one."""
+    rows = np.cumsum([0, *(len(part.firsts) for part in parts)])
+    places = np.cumsum([0, *(len(part.keys) for part in parts)])
+    return Layers(
+        parts[0].first,
+        np.concatenate([np.where(part.rows < 0, -1, part.rows + row).astype(np.int32)
+                        for part, row in zip(parts, rows, strict=False)]),
+        np.concatenate([part.firsts + place for part, place in zip(parts, places, strict=False)]),
+        *(np.concatenate([part[column] for part in parts]) for column in range(3, 7)),
+    )
+
+
+def _looks(given: Sequence[Polygons], lighting: Lighting, camera: Camera) -> Looks:
+    """Return what the triangles share; a texture that several use is there once."""
+    maps = [texture for polygons in given for texture in (polygons.color_map, polygons.opacity_map) if texture is not None]
+    textures = list({id(texture): texture for texture in maps}.values())
+    texels, levels, spans = tables(textures)
+    span = {id(texture): each for texture, each in zip(textures, spans, strict=True)}
+    rows = [
+        (*span.get(id(polygons.color_map), (0, 0)), *span.get(id(polygons.opacity_map), (0, 0)), polygons.shading != "unlit")
+        for polygons in given
+    ]
+    return Looks(np.array(rows, np.int64).reshape(-1, 5), lighting.rows(camera.axes()), texels, levels, camera.perspective)
