@@ -2,7 +2,9 @@
 
 from graphfx.render.camera import Camera
 from graphfx.render.film import Film
+from graphfx.render.polygons import Light, Lighting, Polygons
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
+from graphfx.render.textures import Texture
 
-__all__ = ["Camera", "Film", "Streaks", "render"]
+__all__ = ["Camera", "Film", "Light", "Lighting", "Polygons", "Streaks", "Texture", "render"]

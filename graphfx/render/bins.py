@@ -16,7 +16,7 @@ from graphfx.lanes.inner import inner
 from graphfx.render.falloff import DISC, DISC_RAMP
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH, clipped
 from graphfx.render.patches import Patch
-from graphfx.render.segments import DX, DY, RADIUS0, RADIUS1, Segments, X, Y
+from graphfx.render.segments import DX, DY, KEY0, KEY1, RADIUS0, RADIUS1, Segments, X, Y
 from graphfx.render.tiles import Tiles
 from graphfx.store.primitives import GRAIN, offsets
 from graphfx.store.threads import parallel_ranges, ranges
@@ -35,7 +35,7 @@ def tiles_near(low, high, size, count):
 
 @compiled
 def _bin(
-    segments: Any, start: int, stop: int, column: int, row: int, across: int, down: int, places: Any, members: Any
+    segments: Any, start: int, stop: int, column: int, row: int, across: int, down: int, places: Any, members: Any, limits: Any
 ) -> None:
     """Count each tile's segments in `places`; or, if there are `members`, write them there and move the places on."""
     write = members.size > 0
@@ -54,15 +54,21 @@ def _bin(
             a, b = x + first * dx, x + last * dx
             first_column, last_column = tiles_near(min(a, b) - reach, max(a, b) + reach, TILE_WIDTH, across)
             for tile in range(tile_row * across + first_column, tile_row * across + last_column + 1):
+                if limits is not None and min(values[KEY0], values[KEY1]) > limits[tile]:
+                    continue
                 if write:
                     members[places[tile]] = q
                 places[tile] += 1
 
 
 def bin_segments(
-    segments: Segments, patch: Patch, width: int, height: int, perspective: bool, threads: int, most: float = math.inf
+    segments: Segments, patch: Patch, width: int, height: int, perspective: bool, threads: int, most: float = math.inf,
+    limits: np.ndarray | None = None,
 ) -> Tiles | None:
-    """Return which segments touch which tile of a patch, nearest first in each; None if there are more than `most` such pairs."""
+    """Return which segments touch which tile of a patch, nearest first in each; None if there are more than `most` such pairs.
+
+    `limits` are keys, one for each tile of the patch: what lies wholly beyond is not seen there, and is left out.
+    """
     across, down = patch.right - patch.left, patch.bottom - patch.top
     bounds = ranges(len(segments.kind), threads, GRAIN)
     counts = np.zeros((len(bounds), across * down), np.int64)
@@ -70,7 +76,7 @@ def bin_segments(
     grid = patch.left, patch.top, across, down
 
     def count(piece: int, start: int, stop: int) -> None:
-        _bin(segments, start, stop, *grid, counts[piece], nothing)
+        _bin(segments, start, stop, *grid, counts[piece], nothing, limits)
 
     parallel_ranges(count, bounds, threads)
     starts = offsets(counts.sum(axis=0))
@@ -80,7 +86,7 @@ def bin_segments(
     members = np.empty(starts[-1], np.int32)
 
     def scatter(piece: int, start: int, stop: int) -> None:
-        _bin(segments, start, stop, *grid, places[piece], members)
+        _bin(segments, start, stop, *grid, places[piece], members, limits)
 
     if members.size:
         parallel_ranges(scatter, bounds, threads)

@@ -6,8 +6,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from graphfx.render.cover import Cover, begin_group, new_cover
 from graphfx.render.deep import FIRST_CAPACITY, Buffer, new_buffer, render_deep
 from graphfx.render.layer import GROUPS
+from graphfx.render.layers import Layers
 from graphfx.render.segments import Segments
 from graphfx.render.tiles import Tiles, new_scratch, render_tiles
 from graphfx.store.threads import parallel, parallel_ranges, ranges
@@ -16,7 +18,7 @@ PIECES = 16
 """Pieces of a patch for each thread: enough that none waits long for the last."""
 
 
-def composite(segments: Segments, tiles: Tiles, threads: int, pixels: np.ndarray) -> int:
+def composite(segments: Segments, tiles: Tiles, layers: Layers | None, threads: int, pixels: np.ndarray) -> int:
     """Write the pixels of a patch; return the number of fragments."""
     count = len(tiles.starts) - 1
     overflowed = np.zeros(count * GROUPS, np.bool_)
@@ -24,39 +26,53 @@ def composite(segments: Segments, tiles: Tiles, threads: int, pixels: np.ndarray
     fragments = [0] * len(bounds)
 
     def work(piece: int, start: int, stop: int) -> None:
-        fragments[piece] = render_tiles(segments, tiles, start, stop, True, True, new_scratch(), overflowed, pixels)
+        cover = new_cover(layers)
+        fragments[piece] = render_tiles(segments, tiles, start, stop, True, True, new_scratch(), overflowed, pixels, cover)
 
     parallel_ranges(work, bounds, threads)
     deep = np.flatnonzero(overflowed)
     deep_fragments = [0] * len(deep)
 
     def work_deep(piece: int) -> None:
-        deep_fragments[piece], _ = render_deep(segments, tiles, deep[piece], True, new_buffer(FIRST_CAPACITY), pixels)
+        buffer, cover = new_buffer(FIRST_CAPACITY), _begun_cover(layers, deep[piece])
+        deep_fragments[piece], _ = render_deep(segments, tiles, deep[piece], True, buffer, pixels, cover)
 
     parallel(work_deep, len(deep), threads)
     return sum(fragments) + sum(deep_fragments)
 
 
+def _begun_cover(layers: Layers | None, number: int) -> Cover | None:
+    """Return a cover for one group, `number` = tile * GROUPS + group."""
+    cover = new_cover(layers)
+    if cover is not None:
+        begin_group(cover, number // GROUPS, number % GROUPS)
+    return cover
+
+
 class Slabs:
     """One tile whose segments come slab after slab, the nearest first: what is pending waits for the next slab."""
 
-    def __init__(self) -> None:
-        self.scratch = new_scratch()
+    def __init__(self, layers: Layers | None) -> None:
+        self.scratch, self.cover = new_scratch(), new_cover(layers)
+        self.layers = layers
         self.overflowed = np.zeros(GROUPS, np.bool_)
         self.begun = False
-        self.buffers: dict[int, Buffer] = {}
+        self.buffers: dict[int, tuple[Buffer, Cover | None]] = {}
 
     def add(self, segments: Segments, tiles: Tiles, finish: bool, pixels: np.ndarray) -> int:
         """Go on with a slab; return the number of fragments that are done, all but those of groups that overflowed."""
         begin, self.begun = not self.begun, True
-        return int(render_tiles(segments, tiles, 0, 1, begin, finish, self.scratch, self.overflowed, pixels))
+        return int(render_tiles(
+            segments, tiles, 0, 1, begin, finish, self.scratch, self.overflowed, pixels, self.cover
+        ))
 
     def add_deep(self, segments: Segments, tiles: Tiles, finish: bool, pixels: np.ndarray) -> int:
         """Go on with a slab in the groups that overflowed, when all slabs have been added once; return their fragments."""
         total = 0
         for group in np.flatnonzero(self.overflowed):
-            buffer = self.buffers.get(int(group)) or new_buffer(FIRST_CAPACITY)
-            made, self.buffers[int(group)] = render_deep(segments, tiles, group, finish, buffer, pixels)
+            buffer, cover = self.buffers.get(int(group)) or (new_buffer(FIRST_CAPACITY), _begun_cover(self.layers, group))
+            made, buffer = render_deep(segments, tiles, group, finish, buffer, pixels, cover)
+            self.buffers[int(group)] = buffer, cover
             total += made
         return total
 

@@ -16,6 +16,7 @@ from graphfx.lanes import compiled, mask_bits, store
 from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
+from graphfx.render.cover import hides, show_next
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     GROUPS,
@@ -45,19 +46,22 @@ class Buffer(NamedTuple):
 
 
 @inner
-def _flush_lane(words, values, spare_words, spare_values, count, limit, light, at):
+def _flush_lane(words, values, spare_words, spare_values, count, limit, light, at, cover):
     """Composite one pixel's fragments whose ordered key is at most `limit`, nearest first; return how many are left."""
     merge_sort(words, spare_words, count)
-    through, red, green, blue = light[at], light[at + LANES], light[at + 2 * LANES], light[at + 3 * LANES]
     done = 0
     while done < count and words[done] >> np.uint64(32) <= limit:
         place = np.int64(words[done] & np.uint64(0xFFFFFFFF))
-        opacity = values[place, 0]
+        through, opacity = light[at], values[place, 0]
         seen = through * abs(opacity)
-        red, green, blue = red + seen * values[place, 1], green + seen * values[place, 2], blue + seen * values[place, 3]
-        through -= through * max(opacity, np.float32(0.0))
+        if cover is not None:
+            while ordered_bits(cover.due_bits[at]) <= words[done] >> np.uint64(32):
+                show_next(cover, at, through, light, at + LANES)
+            seen *= cover.means[at]
+        for plane in range(3):
+            light[at + (plane + 1) * LANES] += seen * values[place, plane + 1]
+        light[at] = through - through * max(opacity, np.float32(0.0))
         done += 1
-    light[at], light[at + LANES], light[at + 2 * LANES], light[at + 3 * LANES] = through, red, green, blue
     left = count - done
     for i in range(left):
         place = np.int64(words[done + i] & np.uint64(0xFFFFFFFF))
@@ -72,13 +76,13 @@ def _flush_lane(words, values, spare_words, spare_values, count, limit, light, a
 
 
 @inner
-def _flush(buffer, limit):
+def _flush(buffer, limit, cover):
     """Composite what is final in all sixteen pixels; return the most that is left in one."""
     most = 0
     for lane in range(LANES):
         buffer.filled[lane] = _flush_lane(
             buffer.words[lane], buffer.values[lane], buffer.spare_words, buffer.spare_values, buffer.filled[lane], limit,
-            buffer.light, lane,
+            buffer.light, lane, cover,
         )
         most = max(most, buffer.filled[lane])
     return most
@@ -146,11 +150,11 @@ def _enlarged(buffer):
 
 
 @compiled
-def render_deep(segments, tiles, number, finish, buffer, pixels):
+def render_deep(segments, tiles, number, finish, buffer, pixels, cover):
     """Render one group of one tile, `number` = tile * GROUPS + group, sorting all its fragments.
 
-    Of a tile whose segments come in slabs, `finish` says that these are the last. Return the number of fragments and the
-    buffer that goes on.
+    Of a tile whose segments come in slabs, `finish` says that these are the last. `cover` holds the layers of
+    polygons, begun for this group, or is None. Return the number of fragments and the buffer that goes on.
     """
     k, group = number // GROUPS, number % GROUPS
     left, top = tile_corner(tiles, k)
@@ -163,13 +167,15 @@ def render_deep(segments, tiles, number, finish, buffer, pixels):
         first, last = groups_touched(local)
         if group < first or group > last:
             continue
+        if cover is not None and hides(cover, k, group, local.nearest):
+            break
         total += count_bits(_gather(segments, q, local, group, tiles.perspective, buffer) & inside)
         capacity = len(buffer.spare_words)
         if _fullest(buffer.filled) == capacity:
             limit = _nearest_word(segments, tiles.members[min(place + 1, stop - 1)])
-            if 2 * _flush(buffer, limit) > capacity:
+            if 2 * _flush(buffer, limit, cover) > capacity:
                 buffer = _enlarged(buffer)
     if finish:
-        _flush(buffer, np.uint64(0xFFFFFFFF))
-        write_pixels(buffer.light, 0, pixels, left, top + GROUP_HEIGHT * group, inside)
+        _flush(buffer, np.uint64(0xFFFFFFFF), cover)
+        write_pixels(buffer.light, 0, pixels, left, top + GROUP_HEIGHT * group, inside, cover)
     return total, buffer

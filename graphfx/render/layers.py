@@ -231,6 +231,7 @@ class Surfaces:
         self.triangles, self.dropped = project_polygons(given, camera, width, height, threads)
         self.bins = bin_triangles(self.triangles, width, height, threads)
         self.looks = _looks(given, lighting, camera)
+        self.tiles = len(self.bins.starts) - 1
 
     def layers(self, first: int, last: int, threads: int = 1) -> Layers:
         """Return the layers of tiles first ... last - 1."""

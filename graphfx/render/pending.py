@@ -6,7 +6,8 @@ fragment whose key is not beyond the nearest key of the segment at hand is final
 
     w = T |a|,   C += w c,   T -= T max(a, 0)        a < 0: the blend is `add`, which hides nothing
 
-one pixel after the other from front to back, a left-to-right sum.
+one pixel after the other from front to back, a left-to-right sum. Polygons come between, see cover.py: `cover` is None
+where there are none, and costs nothing then.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 from graphfx.lanes import any_lane, load, mask_bits, splat, store
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import absolute, maximum, where
+from graphfx.render.cover import show_before
 
 LANES = 16
 PLANES = 5
@@ -43,10 +45,12 @@ def clear_light(light, at):
 
 
 @inner
-def add_layer(light, at, opacity, red, green, blue):
+def add_layer(light, at, opacity, red, green, blue, cover):
     """Composite one fragment a lane behind what is there."""
     through = load(light, at)
     seen = through * absolute(opacity)
+    if cover is not None:
+        seen = seen * load(cover.means, at // LIGHT * LANES)
     store(light, at + LANES, load(light, at + LANES) + seen * red)
     store(light, at + 2 * LANES, load(light, at + 2 * LANES) + seen * green)
     store(light, at + 3 * LANES, load(light, at + 3 * LANES) + seen * blue)
@@ -54,10 +58,12 @@ def add_layer(light, at, opacity, red, green, blue):
 
 
 @inner
-def add_slot(light, at, slots, slot, chosen):
+def add_slot(light, at, slots, slot, chosen, cover):
     """Composite the chosen lanes of a slot."""
-    opacity = where(chosen, load(slots, slot + LANES), 0.0)
-    add_layer(light, at, opacity, load(slots, slot + 2 * LANES), load(slots, slot + 3 * LANES), load(slots, slot + 4 * LANES))
+    if cover is not None:
+        show_before(cover, at // LIGHT * LANES, light, at, slots, slot, chosen)
+    opacity, red = where(chosen, load(slots, slot + LANES), 0.0), load(slots, slot + 2 * LANES)
+    add_layer(light, at, opacity, red, load(slots, slot + 3 * LANES), load(slots, slot + 4 * LANES), cover)
 
 
 @inner
@@ -75,17 +81,17 @@ def _drop_lanes(slots, base, first, count, gone):
 
 
 @inner
-def release(light, at, slots, base, first, count, nearest):
+def release(light, at, slots, base, first, count, nearest, cover):
     """Composite what is final from the head of a list; return the first slot and the number of slots that are left."""
     while count > 0:
         key = load(slots, base + first * SLOT)
         final = key <= nearest
         if mask_bits(final | (key == EMPTY)) != ALL:
             if count >= PATIENCE and any_lane(final):
-                add_slot(light, at, slots, base + first * SLOT, final)
+                add_slot(light, at, slots, base + first * SLOT, final, cover)
                 return first, _drop_lanes(slots, base, first, count, final)
             return first, count
-        add_slot(light, at, slots, base + first * SLOT, final)
+        add_slot(light, at, slots, base + first * SLOT, final, cover)
         first += 1
         count -= 1
     return 0, 0

@@ -1,4 +1,4 @@
-"""Render particles: project, order by nearest depth, bin into tiles, composite every pixel in exact order.
+"""Render particles and polygons: project, order by nearest depth, bin into tiles, composite every pixel in exact order.
 
 [Sims 1990, section 4; the order of fragments is per pixel, over all streams]
 """
@@ -15,8 +15,10 @@ from graphfx.render.bins import bin_segments
 from graphfx.render.camera import Camera
 from graphfx.render.compositing import Slabs, composite, composite_slabs
 from graphfx.render.film import Film
+from graphfx.render.layers import Layers, Surfaces
 from graphfx.render.order import ordered
 from graphfx.render.patches import MEMBER_BYTES, Counts, Patch, patches_within, whole_picture
+from graphfx.render.polygons import Lighting, Polygons
 from graphfx.render.samples import Samples, sample_bands
 from graphfx.render.scene import Scene, make_scene
 from graphfx.render.segments import Segments
@@ -27,6 +29,7 @@ from graphfx.render.tiles import Tiles
 LEAST_MEMORY = 1 << 22
 """Bytes; with less a patch would be made of too few streaks to be worth its beginning."""
 
+NO_LIGHTS = Lighting()
 Listener = Callable[[str], Any]
 Sampler = Callable[[Samples], Any]
 
@@ -34,11 +37,12 @@ Sampler = Callable[[Samples], Any]
 def render(
     streams: Sequence[Streaks], head_camera: Camera, tail_camera: Camera | None, width: int, height: int,
     threads: int = 1, listener: Listener = lambda step: None, sampler: Sampler | None = None, memory: float = np.inf,
+    polygons: Sequence[Polygons] = (), lighting: Lighting = NO_LIGHTS,
 ) -> Film:
-    """Return the film of all streams together.
+    """Return the film of all streams and polygons together.
 
     The cameras are those at the end and at the opening of the shutter (None: the same); near and far
-    planes are the head's. `memory` is the number of bytes that may be used beside streams and film; what is too
+    planes are the head's, and polygons are seen by it. `memory` is the number of bytes that may be used beside streams and film; what is too
     much for it is made patch by patch. Any number of threads and any memory give the same bytes. `listener` is called
     with the name of each step as it begins, `sampler` with the samples of each band of rows, from the top.
     """
@@ -48,8 +52,12 @@ def render(
     if width < 1 or height < 1:
         raise ValueError(f"a picture of {width} x {height} pixels has no pixels")
     scene = make_scene(streams, head_camera, tail_camera, width, height, threads, sampler is not None)
-    film = Film(np.zeros((height, width, 4), np.float32))
-    _Rendering(scene, film, listener, sampler, max(memory, LEAST_MEMORY)).run()
+    film, surfaces = Film(np.zeros((height, width, 4), np.float32)), None
+    if polygons:
+        listener("polygons")
+        surfaces = Surfaces(polygons, lighting, head_camera, width, height, threads)
+    _Rendering(scene, surfaces, film, listener, sampler, max(memory, LEAST_MEMORY)).run()
+    film.dropped += surfaces.dropped if surfaces is not None else 0
     return film
 
 
@@ -58,6 +66,7 @@ class _Rendering:
     """One picture in the making."""
 
     scene: Scene
+    surfaces: Surfaces | None
     film: Film
     listener: Listener
     sampler: Sampler | None
@@ -67,40 +76,52 @@ class _Rendering:
         """Render all at once if the memory allows it, or patch by patch."""
         scene, whole = self.scene, whole_picture(self.scene.width, self.scene.height)
         if scene.count * scene.segment_bytes <= self.memory:
-            segments, self.film.dropped = self._segments(whole)
-            tiles = self._tiles(segments, whole, self.memory - scene.segment_bytes // 2 * len(segments.kind))
+            layers = self._layers(whole)
+            segments, self.film.dropped = self._segments(whole, layers)
+            tiles = self._tiles(segments, whole, layers, self.memory - scene.segment_bytes // 2 * len(segments.kind))
             if tiles is not None:
-                self._composite(segments, tiles)
+                self._composite(segments, tiles, layers)
                 return
-            del segments
+            del segments, layers
         self.listener("survey")
         counts, self.film.dropped = scene.survey()
         for patch in patches_within(counts, whole, self.memory, uncut=self.sampler is not None):
             if counts.memory(patch) > self.memory and self.sampler is None:
                 self._tile_in_slabs(patch, counts)
                 continue
-            segments, _ = self._segments(patch)
-            tiles = self._tiles(segments, patch)
+            layers = self._layers(patch)
+            segments, _ = self._segments(patch, layers)
+            tiles = self._tiles(segments, patch, layers)
             assert tiles is not None
-            self._composite(segments, tiles)
+            self._composite(segments, tiles, layers)
 
-    def _segments(self, patch: Patch) -> tuple[Segments, int]:
+    def _layers(self, patch: Patch) -> Layers | None:
+        """Return the fragments of polygons in a patch, or None where the picture has no polygons."""
+        if self.surfaces is None:
+            return None
+        self.listener("polygons")
+        return self.surfaces.layers(patch, self.scene.threads)
+
+    def _segments(self, patch: Patch, layers: Layers | None) -> tuple[Segments, int]:
         """Return the segments that may touch a patch, nearest first, and how many particles were dropped."""
         self.listener("project")
         segments, rows, dropped = self.scene.segments(patch)
+        if layers is not None:
+            rows = rows[segments.nearest[rows] <= layers.limits.max()]
         self.listener("order")
         return ordered(segments, rows, self.scene.threads), dropped
 
-    def _tiles(self, segments: Segments, patch: Patch, memory: float = np.inf) -> Tiles | None:
+    def _tiles(self, segments: Segments, patch: Patch, layers: Layers | None, memory: float = np.inf) -> Tiles | None:
         """Return the segments of each tile of a patch, or None if that would take more memory."""
         self.listener("bin")
         scene = self.scene
         perspective, most = scene.view.perspective, memory / MEMBER_BYTES
-        return bin_segments(segments, patch, scene.width, scene.height, perspective, scene.threads, most)
+        limits = None if layers is None else layers.limits.max(axis=1)
+        return bin_segments(segments, patch, scene.width, scene.height, perspective, scene.threads, most, limits)
 
-    def _composite(self, segments: Segments, tiles: Tiles) -> None:
+    def _composite(self, segments: Segments, tiles: Tiles, layers: Layers | None) -> None:
         self.listener("tiles")
-        self.film.fragments += composite(segments, tiles, self.scene.threads, self.film.pixels)
+        self.film.fragments += composite(segments, tiles, layers, self.scene.threads, self.film.pixels)
         if self.sampler is not None:
             self.listener("samples")
             for samples in sample_bands(segments, tiles, self.scene.threads):
@@ -109,7 +130,7 @@ class _Rendering:
     def _tile_in_slabs(self, patch: Patch, counts: Counts) -> None:
         """Render a patch of one tile, a slice of depth after the other."""
         most = max(int(self.memory) // (counts.segment_bytes + MEMBER_BYTES), 1)
-        slabs = list(slabs_of(self.scene, patch, most))
+        slabs, layers = list(slabs_of(self.scene, patch, most)), self._layers(patch)
 
         def made() -> Iterator[tuple[Segments, Tiles, bool]]:
             for slab in slabs:
@@ -117,12 +138,12 @@ class _Rendering:
                 segments, rows = self.scene.slab_segments(patch, slab, most)
                 self.listener("order")
                 segments = ordered(segments, rows, self.scene.threads)
-                tiles = self._tiles(segments, patch)
+                tiles = self._tiles(segments, patch, layers)
                 assert tiles is not None
                 self.listener("tiles")
                 yield segments, tiles, slab == slabs[-1]
 
-        state = Slabs()
+        state = Slabs(layers)
         self.film.fragments += composite_slabs(made(), state, False, self.film.pixels)
         if state.overflowed.any():
             self.film.fragments += composite_slabs(made(), state, True, self.film.pixels)

@@ -14,6 +14,7 @@ from graphfx.lanes import compiled, load, mask_bits
 from graphfx.lanes.bits import count_bits, prefetch
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
+from graphfx.render.cover import begin_pixels, hides, show_rest
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     GROUPS,
@@ -94,7 +95,7 @@ def lanes_inside(left, top, width, height):
 
 
 @inner
-def _draw(segments, q, local, group, square, scratch):
+def _draw(segments, q, local, group, square, scratch, cover):
     """Draw one segment in one group, and count its fragments in the picture."""
     key, shape, t, hit = fragments(local, group, square)
     bits = mask_bits(hit)
@@ -103,7 +104,8 @@ def _draw(segments, q, local, group, square, scratch):
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
     base = group * LIST
     first, count = release(
-        scratch.light, group * LIGHT, scratch.slots, base, scratch.firsts[group], scratch.counts[group], local.nearest
+        scratch.light, group * LIGHT, scratch.slots, base, scratch.firsts[group], scratch.counts[group], local.nearest,
+        cover,
     )
     if first >= DRIFT:
         to_front(scratch.slots, base, first, count)
@@ -119,18 +121,23 @@ def _draw(segments, q, local, group, square, scratch):
 
 
 @inner
-def write_pixels(light, at, pixels, left, top, inside):
-    """Write a group's light to the film."""
+def write_pixels(light, at, pixels, left, top, inside, cover):
+    """Write a group's light to the film, with what polygons are left behind it."""
+    if cover is not None:
+        show_rest(cover, at // LIGHT * LANES, light, at)
     for lane in range(LANES):
         if inside >> lane & 1:
             y, x = top + lane // TILE_WIDTH, left + lane % TILE_WIDTH
             for plane in range(3):
                 pixels[y, x, plane] = light[at + (plane + 1) * LANES + lane]
-            pixels[y, x, 3] = np.float32(1.0) - light[at + lane]
+            through = light[at + lane]
+            if cover is not None:
+                through *= cover.means[at // LIGHT * LANES + lane]
+            pixels[y, x, 3] = np.float32(1.0) - through
 
 
 @inner
-def _finish_tile(tiles, k, scratch, overflowed, pixels):
+def _finish_tile(tiles, k, scratch, overflowed, pixels, cover):
     """Composite what is pending and write the film; return the fragments of the groups that are done."""
     left, top = tile_corner(tiles, k)
     total = 0
@@ -140,33 +147,36 @@ def _finish_tile(tiles, k, scratch, overflowed, pixels):
             continue
         for slot in range(scratch.counts[group]):
             at = group * LIST + (scratch.firsts[group] + slot) * SLOT
-            add_slot(scratch.light, group * LIGHT, scratch.slots, at, load(scratch.slots, at) < EMPTY)
-        write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group])
+            add_slot(scratch.light, group * LIGHT, scratch.slots, at, load(scratch.slots, at) < EMPTY, cover)
+        write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group], cover)
         total += scratch.hits[group]
     return total
 
 
 @inner
-def _begin_tile(tiles, k, scratch):
+def _begin_tile(tiles, k, scratch, cover):
     """Empty the lists of a tile's groups."""
     left, top = tile_corner(tiles, k)
     for group in range(GROUPS):
         scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = 0
         scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
         clear_light(scratch.light, group * LIGHT)
+    if cover is not None:
+        begin_pixels(cover, k, 0, TILE_WIDTH * TILE_HEIGHT)
 
 
 @compiled
-def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowed, pixels):
+def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowed, pixels, cover):
     """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments.
 
-    Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last.
+    Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last. `cover` holds the
+    layers of polygons; None is compiled to what knows of none.
     """
     total = 0
     for k in range(start, stop):
         left, top = tile_corner(tiles, k)
         if begin:
-            _begin_tile(tiles, k, scratch)
+            _begin_tile(tiles, k, scratch, cover)
         last_place = tiles.starts[k + 1] - 1
         for place in range(tiles.starts[k], last_place + 1):
             ahead = tiles.members[min(place + AHEAD, last_place)]
@@ -175,8 +185,10 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
             for group in range(first, last + 1):
+                if cover is not None and hides(cover, k, group, local.nearest):
+                    continue
                 if scratch.counts[group] != OVERFLOWED:
-                    _draw(segments, q, local, group, tiles.perspective, scratch)
+                    _draw(segments, q, local, group, tiles.perspective, scratch, cover)
         if finish:
-            total += _finish_tile(tiles, k, scratch, overflowed, pixels)
+            total += _finish_tile(tiles, k, scratch, overflowed, pixels, cover)
     return total
