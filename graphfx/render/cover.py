@@ -77,7 +77,7 @@ def _note_due(cover, i):
 
 @inner
 def show_next(cover, i, through, light, red):
-    """Composite the next fragment of pixel i, through which particles let `through`; its red, green, blue lie from light[red] on."""
+    """Composite the next fragment of pixel i, to which particles let `through`; its light lies from light[red] on."""
     row = cover.rows[i]
     value, samples = cover.layers.values[row], load(cover.samples, i * SAMPLES)
     seen = where(mask_from_bits(cover.layers.masks[row]), samples, 0.0)

@@ -12,8 +12,6 @@ tells the side: E >= 0 or E < 0. Both triangles of an edge compute the same E, s
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from graphfx.lanes import load, mask_bits
@@ -26,55 +24,53 @@ SAMPLE_Y = np.array([(int(f"{i:04b}"[::-1], 2) + 0.5) / SAMPLES for i in range(S
 ALL = 0xFFFF
 
 
-class Edge(NamedTuple):
-    """An edge from its first corner; `inside` says that E >= 0 is inside; all offsets of samples lie in low ... high."""
-
-    x: np.float64
-    y: np.float64
-    dx: np.float64
-    dy: np.float64
-    inside: bool
-    low: np.float64
-    high: np.float64
+EDGE_X, EDGE_Y, EDGE_DX, EDGE_DY, INSIDE, LOW, HIGH = range(7)
+"""Places in an edge's row: its first corner, the way to the other, 1 if E >= 0 is inside, and what E - E(p) lies between."""
 
 
 @inner
-def edge_between(x0, y0, x1, y1, turn, offsets, at):
-    """Return the edge of a triangle that turns so, and write dx o.y - dy o.x of the samples to offsets[at:]."""
+def write_edge(edge, offsets, x0, y0, x1, y1, turn):
+    """Write the edge of a triangle that turns so, and dx o.y - dy o.x of the samples."""
     swapped = x1 < x0 or (x1 == x0 and y1 < y0)
     x, y = (x1, y1) if swapped else (x0, y0)
     dx, dy = (x0 - x, y0 - y) if swapped else (x1 - x, y1 - y)
     low, high = np.inf, -np.inf
     for i in range(SAMPLES):
         value = dx * SAMPLE_Y[i] - dy * SAMPLE_X[i]
-        offsets[at + i] = value
+        offsets[i] = value
         low, high = min(low, value), max(high, value)
-    return Edge(x, y, dx, dy, (turn > 0.0) != swapped, low, high)
+    edge[EDGE_X], edge[EDGE_Y], edge[EDGE_DX], edge[EDGE_DY] = x, y, dx, dy
+    edge[INSIDE], edge[LOW], edge[HIGH] = 1.0 if (turn > 0.0) != swapped else 0.0, low, high
 
 
 @inner
-def at_pixel(edge, x, y):
+def _at_pixel(edge, x, y):
     """Return E at the pixel's corner."""
-    return edge.dx * (y - edge.y) - edge.dy * (x - edge.x)
+    return edge[EDGE_DX] * (y - edge[EDGE_Y]) - edge[EDGE_DY] * (x - edge[EDGE_X])
 
 
 @inner
 def contains_tile(edge, left, top):
     """Return whether all samples of a tile are inside: E is monotonous along rows and columns, rounding included."""
     right, bottom = left + (TILE_WIDTH - 1), top + (TILE_HEIGHT - 1)
-    a, b = at_pixel(edge, left, top), at_pixel(edge, right, top)
-    c, d = at_pixel(edge, left, bottom), at_pixel(edge, right, bottom)
-    if edge.inside:
-        return min(min(a, b), min(c, d)) + edge.low >= 0.0
-    return max(max(a, b), max(c, d)) + edge.high < 0.0
+    a, b = _at_pixel(edge, left, top), _at_pixel(edge, right, top)
+    c, d = _at_pixel(edge, left, bottom), _at_pixel(edge, right, bottom)
+    if edge[INSIDE]:
+        return min(min(a, b), min(c, d)) + edge[LOW] >= 0.0
+    return max(max(a, b), max(c, d)) + edge[HIGH] < 0.0
 
 
 @inner
-def samples_inside(edge, offsets, at, x, y):
-    """Return the bits of a pixel's samples that are inside the edge."""
-    value = at_pixel(edge, x, y)
-    least, most = value + edge.low >= 0.0, value + edge.high < 0.0
-    if least or most:
-        return ALL if least == edge.inside else 0
-    behind = mask_bits(load(offsets, at) + value >= 0.0) | mask_bits(load(offsets, at + 8) + value >= 0.0) << 8
-    return behind if edge.inside else behind ^ ALL
+def samples_inside(edges, offsets, x, y):
+    """Return the bits of a pixel's samples that are inside three edges."""
+    bits = ALL
+    for e in range(3):
+        edge = edges[e]
+        value, inside = _at_pixel(edge, x, y), edge[INSIDE] > 0.0
+        least, most = value + edge[LOW] >= 0.0, value + edge[HIGH] < 0.0
+        if (most and inside) or (least and not inside):
+            return 0
+        if not (least or most):
+            behind = mask_bits(load(offsets[e], 0) + value >= 0.0) | mask_bits(load(offsets[e], 8) + value >= 0.0) << 8
+            bits &= behind if inside else behind ^ ALL
+    return bits

@@ -22,9 +22,9 @@ from graphfx.render.pending import LANES
 from graphfx.render.polygons import Lighting, Polygons
 from graphfx.render.resolve import (
     PIXELS,
-    Room,
     clear_depths,
     enter_depths,
+    new_room,
     pixels_touched,
     samples_before,
     samples_named,
@@ -137,7 +137,7 @@ def _sort(made, count, firsts, at, keys, masks, values):
         start = stop
     firsts[PIXELS] = at + start
     for place in range(start):
-        i = np.int64(made.words[place] & np.uint64(0xFFFFFFFF))
+        i = int(made.words[place] & np.uint64(0xFFFFFFFF))
         keys[at + place], masks[at + place] = made.keys[i], made.masks[i]
         for c in range(4):
             values[at + place, c] = made.values[i, c]
@@ -145,78 +145,65 @@ def _sort(made, count, firsts, at, keys, masks, values):
 
 
 @inner
-def _closing_key(keys, masks, values, start, stop):
+def _closing_key(layers, start, stop):
     """Return the key at which fragments of opacity 1 have covered a pixel whole; infinity if they never do."""
     covered = 0
     for i in range(start, stop):
-        if values[i, 0] == 1.0:
-            covered |= np.int64(masks[i])
+        if layers.values[i, 0] == 1.0:
+            covered |= int(layers.masks[i])
         if covered == ALL:
-            return keys[i]
+            return layers.keys[i]
     return np.float32(np.inf)
 
 
 @inner
-def _limit(firsts, keys, masks, values, group, columns, rows):
+def _limit(firsts, layers, group, columns, rows):
     """Return a group's limit; of its pixels only those in the picture count, `columns` by `rows` of the tile."""
     limit = np.float32(-np.inf)
     for pixel in range(group * LANES, (group + 1) * LANES):
         if pixel % TILE_WIDTH < columns and pixel // TILE_WIDTH < rows:
-            limit = max(limit, _closing_key(keys, masks, values, firsts[pixel], firsts[pixel + 1]))
+            limit = max(limit, _closing_key(layers, firsts[pixel], firsts[pixel + 1]))
     return limit
 
 
-@compiled
-def _room():
-    names, name = np.empty(PIXELS * 16, np.int32), np.empty(1, np.int32)
-    depths = np.empty(PIXELS * 16, np.float32)
-    return Room(np.empty(48), np.empty(16, np.float32), depths, names, names.view(np.float32), name, name.view(np.float32))
-
-
-@compiled
-def _fragments(capacity):
-    keys, words = np.empty(capacity, np.float32), np.empty(capacity, np.uint64)
+def _room_for(count: int) -> Fragments:
+    """Return room for so many fragments of a tile."""
+    keys = np.empty(count, np.float32)
     return Fragments(
-        np.empty(capacity, np.int32), np.empty(capacity, np.int32), np.empty(capacity, np.uint16), keys, keys.view(np.uint32),
-        np.empty((capacity, 4), np.float32), words, np.empty(capacity, np.uint64),
+        np.empty(count, np.int32), np.empty(count, np.int32), np.empty(count, np.uint16), keys, keys.view(np.uint32),
+        np.empty((count, 4), np.float32), np.empty(count, np.uint64), np.empty(count, np.uint64),
+    )
+
+
+def _layers_for(first: int, tiles: int, count: int) -> Layers:
+    """Return room for the layers of so many tiles with so many fragments."""
+    return Layers(
+        first, np.full(tiles, -1, np.int32), np.empty((tiles, PIXELS + 1), np.int64), np.empty(count, np.float32),
+        np.empty(count, np.uint16), np.empty((count, 4), np.float32), np.full((tiles, GROUPS), np.inf, np.float32),
     )
 
 
 @compiled
-def _grown(array, used, capacity):
-    made = np.empty((capacity, *array.shape[1:]), array.dtype)
-    made[:used] = array[:used]
-    return made
-
-
-@compiled
-def _make(triangles, looks, bins, start, stop):
-    """Return the layers of tiles start ... stop."""
-    rows, limits = np.full(stop - start, -1, np.int32), np.full((stop - start, GROUPS), np.inf, np.float32)
-    firsts = np.empty((np.count_nonzero(bins.starts[start + 1 : stop + 1] > bins.starts[start:stop]), PIXELS + 1), np.int64)
-    keys, masks = np.empty(FIRST_CAPACITY, np.float32), np.empty(FIRST_CAPACITY, np.uint16)
-    values = np.empty((FIRST_CAPACITY, 4), np.float32)
-    room, made = _room(), _fragments(FIRST_CAPACITY)
+def _make(triangles, looks, bins, stop, room, made, layers):
+    """Make layers up to tile `stop`, or until there is no room; return the tile reached, rows, fragments, and room wanted."""
     row, at = 0, 0
-    for k in range(start, stop):
+    for k in range(layers.first, stop):
         members = bins.members[bins.starts[k] : bins.starts[k + 1]]
         if members.shape[0] == 0:
             continue
         left, top = k % bins.across * TILE_WIDTH, k // bins.across * TILE_HEIGHT
         most = _depths(triangles, members, room, np.float64(left), np.float64(top))
-        if most > made.keys.shape[0]:
-            made = _fragments(2 * most)
+        if most > min(made.keys.shape[0], layers.keys.shape[0] - at):
+            return k, row, at, most
         count = _find(triangles, members, room, np.float64(left), np.float64(top), made)
         _shade(triangles, looks, left, top, made, count)
-        if at + count > keys.shape[0]:
-            capacity = 2 * (at + count)
-            keys, masks, values = _grown(keys, at, capacity), _grown(masks, at, capacity), _grown(values, at, capacity)
-        at = _sort(made, count, firsts[row], at, keys, masks, values)
+        firsts = layers.firsts[row]
+        at = _sort(made, count, firsts, at, layers.keys, layers.masks, layers.values)
         for group in range(GROUPS):
-            limits[k - start, group] = _limit(firsts[row], keys, masks, values, group, bins.width - left, bins.height - top)
-        rows[k - start] = row
+            layers.limits[k - layers.first, group] = _limit(firsts, layers, group, bins.width - left, bins.height - top)
+        layers.rows[k - layers.first] = row
         row += 1
-    return Layers(start, rows, firsts, keys[:at], masks[:at], values[:at], limits)
+    return stop, row, at, 0
 
 
 class Surfaces:
@@ -236,17 +223,38 @@ class Surfaces:
     def layers(self, first: int, last: int, threads: int = 1) -> Layers:
         """Return the layers of tiles first ... last - 1."""
         bounds = [(first + a, first + b) for a, b in ranges(last - first, threads * PIECES if threads > 1 else 1)]
-        made: list[Layers] = [None] * len(bounds)  # type: ignore[list-item]
+        made: list[list[Layers]] = [[] for _ in bounds]
 
         def work(piece: int, start: int, stop: int) -> None:
-            made[piece] = _make(self.triangles, self.looks, self.bins, start, stop)
+            made[piece] = self._range(start, stop)
 
         parallel_ranges(work, bounds, threads)
-        return made[0] if len(made) == 1 else _joined(made)
+        return _joined([part for parts in made for part in parts])
+
+    def _range(self, first: int, last: int) -> list[Layers]:
+        """Return the layers of tiles first ... last - 1, in parts for which there was room."""
+        parts: list[Layers] = []
+        room, wanted = new_room(), FIRST_CAPACITY
+        fragments = _room_for(wanted)
+        while first < last:
+            if wanted > len(fragments.keys):
+                fragments = _room_for(wanted)
+            layers = _layers_for(first, last - first, max(wanted, (last - first) * PIXELS))
+            reached, rows, count, wanted = _make(self.triangles, self.looks, self.bins, last, room, fragments, layers)
+            parts.append(_trimmed(layers, reached - first, rows, count))
+            first = reached
+        return parts
+
+
+def _trimmed(layers: Layers, tiles: int, rows: int, count: int) -> Layers:
+    first, numbers, firsts, keys, masks, values, limits = layers
+    return Layers(first, numbers[:tiles], firsts[:rows], keys[:count], masks[:count], values[:count], limits[:tiles])
 
 
 def _joined(parts: list[Layers]) -> Layers:
     """Return the layers of ranges that follow each other as one."""
+    if len(parts) == 1:
+        return parts[0]
     rows = np.cumsum([0, *(len(part.firsts) for part in parts)])
     places = np.cumsum([0, *(len(part.keys) for part in parts)])
     return Layers(

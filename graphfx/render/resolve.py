@@ -24,10 +24,9 @@ from graphfx.render.coverage import (
     SAMPLE_X,
     SAMPLE_Y,
     SAMPLES,
-    Edge,
     contains_tile,
-    edge_between,
     samples_inside,
+    write_edge,
 )
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.shading import Plane, key_at, plane_of, twice_area
@@ -37,12 +36,13 @@ F = np.float32
 
 
 class Room(NamedTuple):
-    """One thread's memory: offsets of the samples from three edges and of their keys, and the buffer of depths.
+    """One thread's memory: three edges, the offsets of the samples from them and of their keys, and the buffer of depths.
 
     `names` are the triangles that are nearest, by their places in the tile's list, -1 where there is none; `name` has
     room for one. Both are there a second time as if they were floats, to be moved as lanes.
     """
 
+    edges: np.ndarray
     offsets: np.ndarray
     slopes: np.ndarray
     depths: np.ndarray
@@ -52,12 +52,18 @@ class Room(NamedTuple):
     name_lane: np.ndarray
 
 
-class Shape(NamedTuple):
-    """A triangle in a tile: its edges, whether it holds the whole tile, the tile's columns and rows that it may touch."""
+def new_room() -> Room:
+    """Return memory for one thread."""
+    names, name = np.empty(PIXELS * SAMPLES, np.int32), np.empty(1, np.int32)
+    return Room(
+        np.empty((3, 7)), np.empty((3, SAMPLES)), np.empty(SAMPLES, F), np.empty(PIXELS * SAMPLES, F),
+        names, names.view(F), name, name.view(F),
+    )
 
-    first: Edge
-    second: Edge
-    third: Edge
+
+class Shape(NamedTuple):
+    """A triangle in a tile: its plane, whether it holds the whole tile, the tile's columns and rows that it may touch."""
+
     plane: Plane
     whole: bool
     left: np.int64
@@ -76,18 +82,18 @@ def _span(a, b, c, start, size):
 
 @inner
 def shape_of(place, room, left, top):
-    """Return a triangle in the tile at (left, top), and write the offsets of the samples."""
-    turn = twice_area(place)
-    first = edge_between(place[0], place[1], place[2], place[3], turn, room.offsets, 0)
-    second = edge_between(place[2], place[3], place[4], place[5], turn, room.offsets, SAMPLES)
-    third = edge_between(place[4], place[5], place[0], place[1], turn, room.offsets, 2 * SAMPLES)
-    whole = contains_tile(first, left, top) and contains_tile(second, left, top) and contains_tile(third, left, top)
+    """Return a triangle in the tile at (left, top), and write its edges and the offsets of the samples."""
+    turn, whole = twice_area(place), True
+    for e in range(3):
+        a, b = 2 * e, 2 * ((e + 1) % 3)
+        write_edge(room.edges[e], room.offsets[e], place[a], place[a + 1], place[b], place[b + 1], turn)
+        whole = whole and contains_tile(room.edges[e], left, top)
     plane = plane_of(place)
     for i in range(SAMPLES):
         room.slopes[i] = F(plane.kx * SAMPLE_X[i] + plane.ky * SAMPLE_Y[i])
     column, last_column = _span(place[0], place[2], place[4], left, TILE_WIDTH)
     row, last_row = _span(place[1], place[3], place[5], top, TILE_HEIGHT)
-    return Shape(first, second, third, plane, whole, column, last_column, row, last_row)
+    return Shape(plane, whole, column, last_column, row, last_row)
 
 
 @inner
@@ -99,14 +105,7 @@ def pixels_touched(shape):
 @inner
 def samples_covered(shape, room, x, y):
     """Return the bits of a pixel's samples in a triangle."""
-    if shape.whole:
-        return ALL
-    bits = samples_inside(shape.first, room.offsets, 0, x, y)
-    if bits:
-        bits &= samples_inside(shape.second, room.offsets, SAMPLES, x, y)
-    if bits:
-        bits &= samples_inside(shape.third, room.offsets, 2 * SAMPLES, x, y)
-    return bits
+    return ALL if shape.whole else samples_inside(room.edges, room.offsets, x, y)
 
 
 @inner
@@ -119,8 +118,9 @@ def _sample_keys(plane, room, x, y):
 @inner
 def clear_depths(room):
     """Begin a tile: nothing is there."""
-    room.depths[:] = F(np.inf)
-    room.names[:] = -1
+    for i in range(PIXELS * SAMPLES):
+        room.depths[i] = F(np.inf)
+        room.names[i] = -1
 
 
 @inner

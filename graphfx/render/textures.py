@@ -62,7 +62,7 @@ class Texture:
 
 def tables(textures: list[Texture]) -> tuple[np.ndarray, np.ndarray, list[tuple[int, int]]]:
     """Return all texels (n, 4), the levels (m, 3) as (first texel, width, height), and each texture's first level and number."""
-    texels, rows, spans, offset = [np.zeros((1, 4), np.float32)], [], list[tuple[int, int]](), 1
+    texels, rows, spans, offset = [np.zeros((1, 4), np.float32)], list[tuple[int, ...]](), list[tuple[int, int]](), 1
     for texture in textures:
         spans.append((len(rows), len(texture.levels)))
         for level in texture.levels:

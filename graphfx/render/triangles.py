@@ -119,7 +119,7 @@ def _corners(source, t, view, cut):
         if source.coordinates.shape[0]:
             total += source.coordinates[t, k, 0] + source.coordinates[t, k, 1]
         low, high = min(low, cut.corners[k, 2]), max(high, cut.corners[k, 2])
-    if not total - total == 0.0:
+    if total - total != 0.0:
         return -1
     if high < view.near or low > view.far:
         return 0
@@ -150,7 +150,7 @@ def _seen(screen, j, turn, double_sided, view):
     top = min(screen[0, 1], min(screen[j, 1], screen[j + 1, 1]))
     bottom = max(screen[0, 1], max(screen[j, 1], screen[j + 1, 1]))
     inside = left < view.width and right > 0.0 and top < view.height and bottom > 0.0
-    sized = -GREATEST < left and right < GREATEST and -GREATEST < top and bottom < GREATEST and turn != 0.0
+    sized = left > -GREATEST and right < GREATEST and top > -GREATEST and bottom < GREATEST and turn != 0.0
     return inside and sized and (double_sided or turn < 0.0)
 
 

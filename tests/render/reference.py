@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .polygon_reference import composite, fragments_of
+
 F = np.float32
 INTEGRALS = {  # (across a streak, over a still particle) of radius 1
     "linear": (1.0, math.pi / 3),
@@ -178,11 +180,12 @@ def exact_keys(segment, left, top):
     return k0 + segment.nearest(x, y)[0] * (k1 - k0)
 
 
-def reference(streams, head_camera, tail_camera, width, height):
-    """Return (pixels float64 (height, width, 4), number of fragments, number of dropped particles)."""
+def reference(streams, head_camera, tail_camera, width, height, polygons=(), lighting=None):
+    """Return (pixels float64 (height, width, 4), number of fragments, number of dropped particles and triangles)."""
     tail_camera = tail_camera or head_camera
     made = [project(s, i, head_camera, tail_camera, width, height) for s in streams for i in range(s.head.shape[1])]
     dropped = sum(isinstance(m, str) for m in made)
+    between, lost = fragments_of(polygons, lighting, head_camera, width, height)
     segments = [m for m in made if isinstance(m, Segment) and m.opacity != (0, 0)]
     segments.sort(key=lambda segment: min(segment.key) + F(0))
     pixels = np.zeros((-(-height // 16) * 16, -(-width // 8) * 8, 4))
@@ -190,11 +193,12 @@ def reference(streams, head_camera, tail_camera, width, height):
     for top in range(0, height, 16):
         for left in range(0, width, 8):
             tile = pixels[top : top + 16, left : left + 8]
-            fragments += _tile(segments, tile, left + 0.5, top + 0.5, min(width - left, 8), min(height - top, 16))
-    return pixels[:height, :width], fragments, dropped
+            there = [row[left : left + 8] for row in between[top : top + 16]]
+            fragments += _tile(segments, tile, left + 0.5, top + 0.5, min(width - left, 8), min(height - top, 16), there)
+    return pixels[:height, :width], fragments, dropped + lost
 
 
-def _tile(segments, tile, left, top, columns, rows):
+def _tile(segments, tile, left, top, columns, rows, between):
     x, y = np.meshgrid(left + np.arange(8.0), top + np.arange(16.0))
     layers = []
     for segment in segments:
@@ -207,6 +211,7 @@ def _tile(segments, tile, left, top, columns, rows):
             own, colors = segment.attributes(t)
             layers.append((np.where(hit, keys_of(segment, left, top), F(np.inf)), opacity * own, colors, hit, segment.add))
     if not layers:
+        _put_between(between, tile, np.zeros((0, 16, 8)), np.zeros((0, 16, 8)), np.zeros((0, 3, 16, 8)), np.zeros((0, 16, 8)))
         return 0
     keys, opacities, colors, hits, adds = (np.stack(part) for part in zip(*layers, strict=True))
     order = np.argsort(keys, axis=0, kind="stable")
@@ -216,4 +221,17 @@ def _tile(segments, tile, left, top, columns, rows):
     before = np.concatenate([np.ones((1, 16, 8)), through[:-1]])
     tile[..., :3] = np.moveaxis((before[:, None] * opacities[:, None] * colors).sum(0), 0, -1)
     tile[..., 3] = 1 - through[-1]
+    _put_between(between, tile, np.take_along_axis(keys, order, 0), opacities, colors, adds[order])
     return int(hits[:, :rows, :columns].sum())
+
+
+def _put_between(between, tile, keys, opacities, colors, adds):
+    """Composite the pixels that have polygons anew, with the particles' fragments in order along the first axis."""
+    for row, fragments in enumerate(between):
+        for column, there in enumerate(fragments):
+            if there:
+                at = (slice(None), row, column)
+                hit = keys[at] < np.inf
+                tile[row, column] = composite(
+                    there, keys[at][hit], opacities[at][hit], colors[:, :, row, column][hit], adds[at][hit]
+                )
