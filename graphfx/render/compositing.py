@@ -70,7 +70,7 @@ class Slabs:
         """Go on with a slab in the groups that overflowed, when all slabs have been added once; return their fragments."""
         total = 0
         for group in np.flatnonzero(self.overflowed):
-            buffer, cover = self.buffers.get(int(group)) or (new_buffer(FIRST_CAPACITY), _begun_cover(self.layers, group))
+            buffer, cover = self.buffers.get(int(group)) or (new_buffer(FIRST_CAPACITY), _begun_cover(self.layers, int(group)))
             made, buffer = render_deep(segments, tiles, group, finish, buffer, pixels, cover)
             self.buffers[int(group)] = buffer, cover
             total += made

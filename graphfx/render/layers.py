@@ -16,8 +16,9 @@ from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
 from graphfx.render.camera import Camera
 from graphfx.render.coverage import ALL
-from graphfx.render.deep import merge_sort, ordered_bits
 from graphfx.render.layer import GROUPS, TILE_HEIGHT, TILE_WIDTH
+from graphfx.render.order import merge_sort, ordered_bits
+from graphfx.render.patches import Patch
 from graphfx.render.pending import LANES
 from graphfx.render.polygons import Lighting, Polygons
 from graphfx.render.resolve import (
@@ -42,13 +43,12 @@ FIRST_CAPACITY = 4096
 
 
 class Layers(NamedTuple):
-    """The fragments of a range of tiles, and the limits of their groups.
+    """The fragments of the tiles of a patch, row by row, and the limits of their groups.
 
-    Tile `first` + i has the row rows[i] of `firsts`, or none, -1; its pixel p (8 to a row) has the fragments
+    Tile k has the row rows[k] of `firsts`, or none, -1; its pixel p (8 to a row) has the fragments
     firsts[row, p] : firsts[row, p + 1], nearest first: keys, samples as bits, and (opacity, red, green, blue).
     """
 
-    first: int
     rows: np.ndarray
     firsts: np.ndarray
     keys: np.ndarray
@@ -175,23 +175,29 @@ def _room_for(count: int) -> Fragments:
     )
 
 
-def _layers_for(first: int, tiles: int, count: int) -> Layers:
+def _layers_for(tiles: int, count: int) -> Layers:
     """Return room for the layers of so many tiles with so many fragments."""
     return Layers(
-        first, np.full(tiles, -1, np.int32), np.empty((tiles, PIXELS + 1), np.int64), np.empty(count, np.float32),
+        np.full(tiles, -1, np.int32), np.empty((tiles, PIXELS + 1), np.int64), np.empty(count, np.float32),
         np.empty(count, np.uint16), np.empty((count, 4), np.float32), np.full((tiles, GROUPS), np.inf, np.float32),
     )
 
 
 @compiled
-def _make(triangles, looks, bins, stop, room, made, layers):
-    """Make layers up to tile `stop`, or until there is no room; return the tile reached, rows, fragments, and room wanted."""
+def _make(triangles, looks, bins, patch, first, stop, room, made, layers):
+    """Make the layers of tiles first ... stop - 1 of a patch, until there is no room.
+
+    Return the tile reached, the rows and fragments that are used, and, where there was none, the room wanted.
+    """
     row, at = 0, 0
-    for k in range(layers.first, stop):
-        members = bins.members[bins.starts[k] : bins.starts[k + 1]]
+    for k in range(first, stop):
+        across = patch.right - patch.left
+        tile_column, tile_row = patch.left + k % across, patch.top + k // across
+        place = tile_row * bins.across + tile_column
+        members = bins.members[bins.starts[place] : bins.starts[place + 1]]
         if members.shape[0] == 0:
             continue
-        left, top = k % bins.across * TILE_WIDTH, k // bins.across * TILE_HEIGHT
+        left, top = tile_column * TILE_WIDTH, tile_row * TILE_HEIGHT
         most = _depths(triangles, members, room, np.float64(left), np.float64(top))
         if most > min(made.keys.shape[0], layers.keys.shape[0] - at):
             return k, row, at, most
@@ -200,8 +206,8 @@ def _make(triangles, looks, bins, stop, room, made, layers):
         firsts = layers.firsts[row]
         at = _sort(made, count, firsts, at, layers.keys, layers.masks, layers.values)
         for group in range(GROUPS):
-            layers.limits[k - layers.first, group] = _limit(firsts, layers, group, bins.width - left, bins.height - top)
-        layers.rows[k - layers.first] = row
+            layers.limits[k - first, group] = _limit(firsts, layers, group, bins.width - left, bins.height - top)
+        layers.rows[k - first] = row
         row += 1
     return stop, row, at, 0
 
@@ -218,37 +224,39 @@ class Surfaces:
         self.triangles, self.dropped = project_polygons(given, camera, width, height, threads)
         self.bins = bin_triangles(self.triangles, width, height, threads)
         self.looks = _looks(given, lighting, camera)
-        self.tiles = len(self.bins.starts) - 1
 
-    def layers(self, first: int, last: int, threads: int = 1) -> Layers:
-        """Return the layers of tiles first ... last - 1."""
-        bounds = [(first + a, first + b) for a, b in ranges(last - first, threads * PIECES if threads > 1 else 1)]
+    def layers(self, patch: Patch, threads: int = 1) -> Layers:
+        """Return the layers of a patch."""
+        tiles = (patch.right - patch.left) * (patch.bottom - patch.top)
+        bounds = ranges(tiles, threads * PIECES if threads > 1 else 1)
         made: list[list[Layers]] = [[] for _ in bounds]
 
         def work(piece: int, start: int, stop: int) -> None:
-            made[piece] = self._range(start, stop)
+            made[piece] = self._range(patch, start, stop)
 
         parallel_ranges(work, bounds, threads)
         return _joined([part for parts in made for part in parts])
 
-    def _range(self, first: int, last: int) -> list[Layers]:
-        """Return the layers of tiles first ... last - 1, in parts for which there was room."""
+    def _range(self, patch: Patch, first: int, stop: int) -> list[Layers]:
+        """Return the layers of tiles first ... stop - 1 of a patch, in parts for which there was room."""
         parts: list[Layers] = []
         room, wanted = new_room(), FIRST_CAPACITY
         fragments = _room_for(wanted)
-        while first < last:
+        while first < stop:
             if wanted > len(fragments.keys):
                 fragments = _room_for(wanted)
-            layers = _layers_for(first, last - first, max(wanted, (last - first) * PIXELS))
-            reached, rows, count, wanted = _make(self.triangles, self.looks, self.bins, last, room, fragments, layers)
+            layers = _layers_for(stop - first, max(wanted, (stop - first) * PIXELS))
+            reached, rows, count, wanted = _make(
+                self.triangles, self.looks, self.bins, patch, first, stop, room, fragments, layers
+            )
             parts.append(_trimmed(layers, reached - first, rows, count))
             first = reached
         return parts
 
 
 def _trimmed(layers: Layers, tiles: int, rows: int, count: int) -> Layers:
-    first, numbers, firsts, keys, masks, values, limits = layers
-    return Layers(first, numbers[:tiles], firsts[:rows], keys[:count], masks[:count], values[:count], limits[:tiles])
+    numbers, firsts, keys, masks, values, limits = layers
+    return Layers(numbers[:tiles], firsts[:rows], keys[:count], masks[:count], values[:count], limits[:tiles])
 
 
 def _joined(parts: list[Layers]) -> Layers:
@@ -258,11 +266,10 @@ def _joined(parts: list[Layers]) -> Layers:
     rows = np.cumsum([0, *(len(part.firsts) for part in parts)])
     places = np.cumsum([0, *(len(part.keys) for part in parts)])
     return Layers(
-        parts[0].first,
         np.concatenate([np.where(part.rows < 0, -1, part.rows + row).astype(np.int32)
                         for part, row in zip(parts, rows, strict=False)]),
         np.concatenate([part.firsts + place for part, place in zip(parts, places, strict=False)]),
-        *(np.concatenate([part[column] for part in parts]) for column in range(3, 7)),
+        *(np.concatenate([part[column] for part in parts]) for column in range(2, 6)),
     )
 
 

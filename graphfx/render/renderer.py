@@ -42,9 +42,10 @@ def render(
     """Return the film of all streams and polygons together.
 
     The cameras are those at the end and at the opening of the shutter (None: the same); near and far
-    planes are the head's, and polygons are seen by it. `memory` is the number of bytes that may be used beside streams and film; what is too
-    much for it is made patch by patch. Any number of threads and any memory give the same bytes. `listener` is called
-    with the name of each step as it begins, `sampler` with the samples of each band of rows, from the top.
+    planes are the head's, which sees the polygons too. `memory` is the number of bytes that may be used beside streams,
+    polygons and film; what is too much for it is made patch by patch. Any number of threads and any memory give the same
+    bytes. `listener` is called with the name of each step as it begins, `sampler` with the samples of particles of each band
+    of rows, from the top.
     """
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:

@@ -169,8 +169,8 @@ def _begin_tile(tiles, k, scratch, cover):
 def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowed, pixels, cover):
     """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments.
 
-    Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last. `cover` holds the
-    layers of polygons; None is compiled to what knows of none.
+    Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last.
+    `cover` holds the layers of polygons; None is compiled to what knows of none.
     """
     total = 0
     for k in range(start, stop):
