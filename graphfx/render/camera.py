@@ -5,16 +5,25 @@
 
 X, Y, w are metres to the right, up and ahead of the camera; x, y are pixels, the corner of the
 picture's first row at (0, 0), pixel centres at halves. Everything is float64.
+
+A perspective camera may have a depth of field: a point at depth w is spread over a disc on the film,
+
+    c = F^2 |w - s| / (N w (s - F))        diameter, in the unit of F
+
+F being the lens, N the f-number `f_stop` and s the distance in focus, all along the axis. [thin lens]
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 FILM_WIDTH = 36.0
 """Width of the film in mm."""
+MM = 1e-3
+"""Metres."""
 NEAREST, FARTHEST = 1e-9, 1e15
 """Metres ahead within which a perspective camera sees, whatever its planes: its depths are float32."""
 GREATEST = 1e100
@@ -29,7 +38,8 @@ class Camera:
 
     `position` and `target` are in m; `up` need not be square to the view. `lens` is the focal
     length in mm (perspective), `width_of_view` the width that the picture shows in m
-    (orthographic). Only what lies between the planes `near` and `far`, m ahead, is seen.
+    (orthographic). Only what lies between the planes `near` and `far`, m ahead, is seen. `f_stop` is
+    the lens over the width of its opening (infinite: all is sharp), `focus_distance` the depth that is in focus, m.
     """
 
     position: tuple[float, float, float] = (0.0, 0.0, 10.0)
@@ -40,6 +50,8 @@ class Camera:
     near: float = 0.01
     far: float = 1e6
     width_of_view: float = 10.0
+    f_stop: float = math.inf
+    focus_distance: float = 10.0
 
     def __post_init__(self) -> None:
         """Refuse a camera that cannot be."""
@@ -49,6 +61,12 @@ class Camera:
             raise ValueError(f"near is {self.near}, far {self.far}; near must be less than far, and in perspective more than 0")
         if not (self.lens > 0.0 and self.width_of_view > 0.0):
             raise ValueError("lens and width_of_view must be more than 0")
+        if not self.f_stop > 0.0:
+            raise ValueError(f"f_stop is {self.f_stop}; it must be more than 0")
+        if self.f_stop < math.inf and not self.perspective:
+            raise ValueError("f_stop is for perspective alone: an orthographic camera has no lens, and sees all sharp")
+        if self.f_stop < math.inf and not MM * self.lens < self.focus_distance < math.inf:
+            raise ValueError(f"focus_distance is {self.focus_distance} m; it must be more than the lens, {self.lens} mm")
         numbers = np.abs([*self.position, *self.target, *self.up, self.lens, self.width_of_view])
         if not (numbers < GREATEST).all():
             raise ValueError(f"a camera's numbers must be finite, and less than {GREATEST:g}")
@@ -81,6 +99,14 @@ class Camera:
     def scale(self, width: int) -> float:
         """Return pixels per metre: at w = 1 m in perspective, everywhere in orthographic."""
         return width * self.lens / FILM_WIDTH if self.perspective else width / self.width_of_view
+
+    def confusion(self, width: int) -> float:
+        """Return the radius in pixels to which a point infinitely far away is spread; at depth w it is |1 - s / w| of that."""
+        if self.f_stop == math.inf:
+            return 0.0
+        lens = MM * self.lens
+        diameter = lens / self.f_stop * self.lens / (self.focus_distance - lens)
+        return min(diameter * width / FILM_WIDTH / 2, GREATEST)
 
     def screen_matrix(self, width: int, height: int) -> np.ndarray:
         """Return the (3, 4) matrix from (position, 1) to (x w, y w, w), or to (x, y, w) in orthographic."""

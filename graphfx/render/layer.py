@@ -3,12 +3,13 @@
     t = clamp((p - p0) . (p1 - p0) / |p1 - p0|^2)      the closest point of the segment, on the screen
     r = r0 + t (r1 - r0),  rho = max(r, 1)             radius there, pixels
     opacity = o(s) shape(distance / rho) weight(r, rho)            shape: see falloff.py
-    weight = r (r + rest) / (rho (rho + rest + speed))             what clamping and exposure leave
+    weight = r (r + rest) / (rho (rho + rest + speed))             what clamping, focus and exposure leave
     key = k0 + t (k1 - k0), between k0 and k1          so that rounding never puts it before the whole segment
 
 Solid streaks have rest = (width / area) L and speed 0, exposed ones rest 0 and speed = (width / area) v, v being
 the speed on the screen there, pixels a shutter. So a capsule of even radius has the total (width r L + area r^2)
-if it is solid, and the total area r^2 of the still particle if it is exposed, also with its radius clamped.
+if it is solid, and the total area r^2 of the still particle if it is exposed, also with its radius clamped. Out of focus
+by c pixels, rho = max(sqrt(r^2 + c^2), 1). Of a segment that goes on in another, what lies beyond the joint is left to that.
 
 float32, relative to the centre of the tile's first pixel; long segments are clipped to the tile's
 neighbourhood first, in float64, so that they are as exact as short ones.
@@ -28,15 +29,22 @@ from graphfx.math.primitives import floor, maximum, minimum, sqrt, where
 from graphfx.render.falloff import DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
 from graphfx.render.segments import (
     BLUE,
+    BLURRED,
+    CONFUSION0,
+    CONFUSION1,
     DX,
     DY,
     GREEN,
+    JOINED_HEAD,
+    JOINED_TAIL,
     KEY0,
     KEY1,
     OPACITY,
     RADIUS0,
     RADIUS1,
     RED,
+    SHARP0,
+    SHARP1,
     SOLID,
     THIN,
     VARYING,
@@ -51,6 +59,7 @@ LONG = 64.0
 """Pixels across or down beyond which a segment is clipped."""
 SHORTEST = np.float32(1e-12)
 """Squared length, pixels^2, up to which a segment is a point."""
+NOWHERE = np.float32(-np.inf)
 FALL = -SHARPNESS * math.log2(math.e)
 F = np.float32
 
@@ -67,6 +76,8 @@ class Local(NamedTuple):
     inverse: np.float32
     radius: np.float32
     radius_way: np.float32
+    confusion: np.float32
+    confusion_way: np.float32
     key: np.float32
     key_way: np.float32
     nearest: np.float32
@@ -110,6 +121,11 @@ def localize(segments, q, left, top):
         first, last = clipped(x, dx, -margin, TILE_WIDTH - 1 + margin, first, last)
         first, last = clipped(y, dy, -margin, TILE_HEIGHT - 1 + margin, first, last)
     share = last - first
+    confusion, confusion_way = np.float64(0.0), np.float64(0.0)
+    if kind & BLURRED:
+        r0, r1 = segments.focus[q, SHARP0], segments.focus[q, SHARP1]
+        confusion = np.float64(segments.focus[q, CONFUSION0])
+        confusion_way = np.float64(segments.focus[q, CONFUSION1]) - confusion
     radius_way, key_way = np.float64(r1) - np.float64(r0), np.float64(k1) - np.float64(k0)
     most = margin + LONG + TILE_HEIGHT
     start_x, start_y = _bounded(x + first * dx, most), _bounded(y + first * dy, most)
@@ -119,7 +135,8 @@ def localize(segments, q, left, top):
     pace = segments.pace[q]
     return Local(
         start_x, start_y, way_x, way_y, inverse if share >= 0.0 else F(-1.0),
-        F(r0 + first * radius_way), F(share * radius_way), F(k0 + first * key_way), F(share * key_way),
+        F(r0 + first * radius_way), F(share * radius_way),
+        F(confusion + first * confusion_way), F(share * confusion_way), F(k0 + first * key_way), F(share * key_way),
         min(k0, k1), max(k0, k1), F(first), F(share), reach,
         pace if kind & SOLID else F(0.0), F(0.0) if kind & SOLID else pace, kind,
     )
@@ -158,12 +175,29 @@ def nearest_point(local, group):
 
 
 @inner
+def beyond_joint(local, group):
+    """Return which pixels lie beyond an end at which the segment goes on in another."""
+    across, down = pixel_columns() - local.x, pixel_rows(group) - local.y
+    beyond = across < NOWHERE
+    if local.kind & JOINED_HEAD:
+        beyond = beyond | (across * local.dx + down * local.dy < 0.0)
+    if local.kind & JOINED_TAIL:
+        beyond = beyond | ((across - local.dx) * local.dx + (down - local.dy) * local.dy >= 0.0)
+    return beyond
+
+
+@inner
 def fragments(local, group, square):
     """Return (key, opacity at the full opacity of 1, t, which lanes are touched); `square` says perspective."""
     t, distance = nearest_point(local, group)
+    if local.kind & (JOINED_HEAD | JOINED_TAIL):
+        distance = where(beyond_joint(local, group), -NOWHERE, distance)
     key = minimum(maximum(local.key + t * local.key_way, local.nearest), local.farthest)
     radius = local.radius + t * local.radius_way
     clamped = maximum(radius, 1.0)
+    if local.kind & BLURRED:
+        confusion = local.confusion + t * local.confusion_way
+        clamped = maximum(sqrt(radius * radius + confusion * confusion), 1.0)
     speed = key * key * local.pace if square else key * 0.0 + local.pace
     code = local.kind & 3
     if code == DISC:

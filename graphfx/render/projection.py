@@ -5,14 +5,17 @@ the straight line is straight and every parameter is linear in s = 0 (head) ... 
 between the near and the far plane is kept. On the screen, with t the share of the projected segment,
 
     radius r(t) = r0 + t (r1 - r0)        pixels: the linear world radius over the depth
+    focus  c(t) = c0 + t (c1 - c0)        pixels that it is out of focus: C (1 - focus / w), see camera.py and falloff.py
     key    k(t) = k0 + t (k1 - k0)        -1 / w in perspective, w in orthographic: orders by depth
     s(t) = t k1 / k(t)                    for colour and opacity (orthographic: s = t)
+
+Between the shutter's ends the camera stands so that what is still goes straight on the screen:
+a point at moment m (0: head camera, 1: tail camera) is (1 - m) of what one sees and m of what the other does.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -22,6 +25,9 @@ from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
 from graphfx.render.order import ordered_word
 from graphfx.render.segments import (
+    BLURRED,
+    CONFUSION0,
+    CONFUSION1,
     DX,
     DY,
     KEY0,
@@ -30,71 +36,20 @@ from graphfx.render.segments import (
     RADIUS0,
     RADIUS1,
     RED,
+    SHARP0,
+    SHARP1,
     SOLID,
     THIN,
     VARYING,
     X,
     Y,
 )
+from graphfx.render.weights import GREATEST_PACE, joined_total, joints_of, pace_of, true_total
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
-GREATEST_PACE = 1e28
-"""Times the greatest radius still a float32."""
 GREATEST_COLOR = np.float32(1e30)
 """Colours are kept within this, so that differences and sums of them stay finite."""
-
-
-class View(NamedTuple):
-    """The two cameras and the picture."""
-
-    head: np.ndarray
-    tail: np.ndarray
-    head_scale: float
-    tail_scale: float
-    near: float
-    far: float
-    perspective: bool
-
-
-class Slab(NamedTuple):
-    """A slice of depth: of particles start ... stop - 1 those whose nearest key is, as ordered bits, from low to high."""
-
-    sliced: bool
-    low: int
-    high: int
-    start: int
-    stop: int
-
-
-class Window(NamedTuple):
-    """What is rendered at one time: pixels left ... right - 1, top ... bottom - 1, of all depths or of a slab.
-
-    Where `top_rows` and `bottom_rows` hold the first and last row of tiles that each particle reaches, those that do not
-    reach the rows first_row ... last_row are passed over.
-    """
-
-    left: int
-    top: int
-    right: int
-    bottom: int
-    first_row: int
-    last_row: int
-    top_rows: np.ndarray
-    bottom_rows: np.ndarray
-    slab: Slab
-
-
-class Look(NamedTuple):
-    """How one stream looks: see Falloff; `sign` is -1 for `add`."""
-
-    code: int
-    width: float
-    area: float
-    reach: float
-    sign: float
-    exposed: bool
-    varies: bool
 
 
 @inner
@@ -104,11 +59,32 @@ def _value(columns, c, i):
 
 
 @inner
-def _transformed(matrix, x, y, z):
+def _transformed(columns, i, place, size, seen):
+    """Return (x w, y w, w, radius w, c w) of particle i's point in columns `place` ... + 2, its radius in column `size`."""
+    matrix = seen.matrix
+    x, y, z = _value(columns, place, i), _value(columns, place + 1, i), _value(columns, place + 2, i)
+    depth = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3]
     return (
         matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3],
         matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3],
-        matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3],
+        depth,
+        max(np.float64(_value(columns, size, i)), 0.0) * seen.scale,
+        seen.confusion * (depth - seen.focus),
+    )
+
+
+@inner
+def _at_moment(columns, i, place, size, moment, view):
+    """Return the same at a moment between the cameras."""
+    if moment == 0.0:
+        return _transformed(columns, i, place, size, view.head)
+    after = _transformed(columns, i, place, size, view.tail)
+    if moment == 1.0:
+        return after
+    before = _transformed(columns, i, place, size, view.head)
+    return (
+        _mixed(before[0], after[0], moment), _mixed(before[1], after[1], moment), _mixed(before[2], after[2], moment),
+        _mixed(before[3], after[3], moment), _mixed(before[4], after[4], moment),
     )
 
 
@@ -150,25 +126,40 @@ def _color(value):
 
 
 @inner
-def screen_segment(columns, i, view):
-    """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1)) of particle i."""
-    head = _transformed(view.head, _value(columns, 0, i), _value(columns, 1, i), _value(columns, 2, i))
-    tail = _transformed(view.tail, _value(columns, 3, i), _value(columns, 4, i), _value(columns, 5, i))
+@inner
+def screen_segment(columns, i, view, look):
+    """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1), radii in focus, pixels out of it) of particle i."""
+    head = _at_moment(columns, i, 0, 6, np.float64(_value(columns, 19, i)), view)
+    tail = _at_moment(columns, i, 3, 7, np.float64(_value(columns, 20, i)), view)
     first, last = _between_planes(head[2], tail[2], view.near, view.far)
-    r_head = max(np.float64(_value(columns, 6, i)), 0.0) * view.head_scale
-    r_tail = max(np.float64(_value(columns, 7, i)), 0.0) * view.tail_scale
     x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
     y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
     k0 = min(max(_mixed(head[2], tail[2], first), view.near), view.far)  # rounding must not leave the planes
     k1 = min(max(_mixed(head[2], tail[2], last), view.near), view.far)
-    r0, r1 = _mixed(r_head, r_tail, first), _mixed(r_head, r_tail, last)
+    r0, r1 = _mixed(head[3], tail[3], first), _mixed(head[3], tail[3], last)
+    c0, c1 = _mixed(head[4], tail[4], first), _mixed(head[4], tail[4], last)
     if view.perspective:
         i0, i1 = 1.0 / k0, 1.0 / k1
-        x0, y0, r0, k0 = x0 * i0, y0 * i0, r0 * i0, -i0
-        x1, y1, r1, k1 = x1 * i1, y1 * i1, r1 * i1, -i1
-    r0, r1 = min(r0, GREATEST_RADIUS), min(r1, GREATEST_RADIUS)
-    visible = first <= last and max(r0, r1) > 0.0 and (x0 + y0 + x1 + y1) * 0.0 == 0.0
-    return visible, first, last, (x0, y0, x1 - x0, y1 - y0, r0, r1, k0, k1)
+        x0, y0, r0, c0, k0 = x0 * i0, y0 * i0, r0 * i0, c0 * i0, -i0
+        x1, y1, r1, c1, k1 = x1 * i1, y1 * i1, r1 * i1, c1 * i1, -i1
+    sharp = min(r0, GREATEST_RADIUS), min(r1, GREATEST_RADIUS)
+    confusion = 0.0, 0.0
+    if view.blurred:
+        confusion = _bounded(c0 * look.spread), _bounded(c1 * look.spread)
+    r0, r1 = _drawn_radius(sharp[0], confusion[0]), _drawn_radius(sharp[1], confusion[1])
+    visible = first <= last and max(sharp[0], sharp[1]) > 0.0 and (x0 + y0 + x1 + y1) * 0.0 == 0.0
+    return visible, first, last, (x0, y0, x1 - x0, y1 - y0, r0, r1, k0, k1), sharp, confusion
+
+
+@inner
+def _drawn_radius(radius, confusion):
+    """Return the radius of what is out of focus."""
+    return radius if confusion == 0.0 else min(math.sqrt(radius * radius + confusion * confusion), GREATEST_RADIUS)
+
+
+@inner
+def _bounded(confusion):
+    return min(max(confusion, -GREATEST_RADIUS), GREATEST_RADIUS)
 
 
 @inner
@@ -183,26 +174,7 @@ def touches(segment, reach, window):
 
 
 @inner
-def _pace(segment, look, perspective):
-    """Return what weighs the segment's opacity (see layer.py): solid (width / area) L, exposed (width / area) of its speed.
-
-    In perspective the speed on the screen, pixels a shutter, of motion that is even in s is pace k(t)^2.
-    """
-    _, _, dx, dy, _, _, k0, k1 = segment
-    pace = look.width / look.area * math.sqrt(dx * dx + dy * dy)
-    return min(pace / (k0 * k1) if look.exposed and perspective else pace, GREATEST_PACE)
-
-
-@inner
-def _true_total(segment, look):
-    """Return the total of opacity 1: of the capsule if solid, of the still particle if exposed."""
-    _, _, dx, dy, r0, r1, _, _ = segment
-    still = look.area * (r0 * r0 + r1 * r1) * 0.5
-    return still if look.exposed else still + look.width * math.sqrt(dx * dx + dy * dy) * (r0 + r1) * 0.5
-
-
-@inner
-def _write_place(segment, pace, look, segments, at):
+def _write_place(segment, pace, kind, segments, at):
     """Write where a segment is."""
     x, y, dx, dy, r0, r1, k0, k1 = segment
     places, values = segments.places, segments.values
@@ -210,8 +182,15 @@ def _write_place(segment, pace, look, segments, at):
     values[at, RADIUS0], values[at, RADIUS1] = r0, r1
     values[at, KEY0], values[at, KEY1] = k0 + 0.0, k1 + 0.0
     segments.pace[at] = pace
-    segments.kind[at] = look.code | (THIN if min(r0, r1) < 1.0 else 0) | (0 if look.exposed else SOLID)
+    segments.kind[at] = kind
     segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
+
+
+@inner
+def _write_focus(sharp, confusion, segments, at):
+    """Write what a segment that is out of focus would be in focus, and how far it is out."""
+    focus = segments.focus
+    focus[at, SHARP0], focus[at, SHARP1], focus[at, CONFUSION0], focus[at, CONFUSION1] = *sharp, *confusion
 
 
 @inner
@@ -237,10 +216,39 @@ def _write_look(columns, i, first, last, factor, look, segments, at):
 
 
 @inner
+@inner
 def _in_slab(nearest, number, slab):
     """Return whether a particle is among those of a slab of depth."""
     word = np.int64(ordered_word(nearest))
     return slab.low <= word <= slab.high and slab.start <= number < slab.stop
+
+
+@inner
+def _write_segment(columns, i, view, look, window, number, segments, at):
+    """Write the segment of particle i, which is `number` of all; return whether it is seen in the window."""
+    visible, first, last, segment, sharp, confusion = screen_segment(columns, i, view, look)
+    if not visible or not touches(segment, look.reach, window):
+        return False
+    kind = look.code | (0 if look.exposed else SOLID) | (THIN if min(sharp[0], sharp[1]) < 1.0 else 0)
+    if confusion[0] != 0.0 or confusion[1] != 0.0:
+        kind |= BLURRED | THIN
+        _write_focus(sharp, confusion, segments, at)
+    pace, portion = pace_of(segment, look, view.perspective), _unit(np.float64(_value(columns, 17, i))) * (last - first)
+    joints = joints_of(np.int64(_value(columns, 18, i)), segment, first, last)
+    total, factor = true_total(sharp, segment, look), 1.0
+    if joints != 0 and portion > 0.0:
+        kind |= joints
+        pace = min(pace / portion, GREATEST_PACE)
+        total = joined_total(sharp, segment, look, joints, portion)
+    elif look.exposed:
+        factor = portion
+    _write_place(segment, pace, kind, segments, at)
+    if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
+        return False
+    factor *= evenness(segments, at, view.perspective, total)
+    if look.exposed:
+        factor *= _unit(np.float64(_value(columns, 16, i)))
+    return _write_look(columns, i, first, last, factor, look, segments, at)
 
 
 @compiled
@@ -257,17 +265,7 @@ def project(columns, view, look, window, first, count, segments, at):
             continue
         if not finite(columns, i):
             dropped += 1
-            continue
-        visible, start, stop, segment = screen_segment(columns, i, view)
-        if not visible or not touches(segment, look.reach, window):
-            continue
-        _write_place(segment, _pace(segment, look, view.perspective), look, segments, at)
-        if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
-            continue
-        factor = evenness(segments, at, view.perspective, _true_total(segment, look))
-        if look.exposed:
-            factor *= _unit(np.float64(_value(columns, 16, i))) * (stop - start)
-        if _write_look(columns, i, start, stop, factor, look, segments, at):
+        elif _write_segment(columns, i, view, look, window, number, segments, at):
             if len(segments.particle):
                 segments.particle[at] = number
             at += 1

@@ -9,13 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.render.camera import Camera
-from graphfx.render.falloff import FALLOFFS
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.patches import Counts, Patch, whole_picture
-from graphfx.render.projection import Look, Slab, View, Window, project
+from graphfx.render.projection import project
 from graphfx.render.segments import Segments, empty_segments, segment_bytes
 from graphfx.render.streaks import Streaks, addresses
 from graphfx.render.survey import count_keys, survey
+from graphfx.render.view import Look, Slab, View, Window, look_of, view_of
 from graphfx.store.primitives import offsets
 from graphfx.store.threads import parallel, parallel_ranges, ranges
 
@@ -60,7 +60,7 @@ class Scene:
     @property
     def segment_bytes(self) -> int:
         """Return the memory that one segment takes while it is put in order."""
-        return segment_bytes(self.varies, self.sampled)
+        return segment_bytes(self.varies, self.sampled, self.view.blurred)
 
     def window(self, patch: Patch, slab: Slab = EVERYWHERE) -> Window:
         """Return the part of the picture that is a patch."""
@@ -75,7 +75,7 @@ class Scene:
         window = self.window(patch)
         rooms = np.array([self._room(piece, patch) for piece in self.pieces], np.int64)
         starts = offsets(rooms)
-        segments = empty_segments(int(starts[-1]), self.varies, self.sampled)
+        segments = empty_segments(int(starts[-1]), self.varies, self.sampled, self.view.blurred)
         kept, dropped = [0] * len(self.pieces), [0] * len(self.pieces)
 
         def work(number: int) -> None:
@@ -88,7 +88,7 @@ class Scene:
 
     def slab_segments(self, patch: Patch, slab: Slab, most: int) -> tuple[Segments, np.ndarray]:
         """Return the segments of a slab of a patch, at most so many."""
-        segments, at = empty_segments(most + 1, self.varies, self.sampled), 0
+        segments, at = empty_segments(most + 1, self.varies, self.sampled, self.view.blurred), 0
         for piece in self.pieces:
             if slab.start < piece.first + piece.stop - piece.start and piece.first < slab.stop:
                 at += self._project(piece, self.window(patch, slab), segments, at)[0]
@@ -145,19 +145,14 @@ def make_scene(
     streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int, sampled: bool
 ) -> Scene:
     """Return the scene of some streams."""
-    view = View(
-        head.screen_matrix(width, height), tail.screen_matrix(width, height), head.scale(width), tail.scale(width),
-        *head.planes, head.perspective,
-    )
     pieces: list[Piece] = []
     first = 0
     for stream in streams:
-        sign = -1.0 if stream.blend == "add" else 1.0
-        look = Look(*FALLOFFS[stream.falloff], sign, stream.streak == "exposed", stream.varies)
         pieces += [
-            Piece(stream, look, first + start, start, stop)
+            Piece(stream, look_of(stream), first + start, start, stop)
             for start, stop in ranges(stream.count, max(threads, -(-stream.count // PIECE)), GRAIN)
             if stop > start
         ]
         first += stream.count
+    view = view_of(head, tail, width, height)
     return Scene(view, width, height, pieces, any(stream.varies for stream in streams), sampled, threads)

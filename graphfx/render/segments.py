@@ -6,12 +6,18 @@ from typing import NamedTuple
 
 import numpy as np
 
-THIN, VARYING, SOLID = 4, 8, 16
-"""Bits of a segment's kind, beside its falloff: radius under a pixel somewhere; colour or opacity differ; not exposed."""
+THIN, VARYING, SOLID, BLURRED = 4, 8, 16, 128
+"""Bits of a segment's kind, beside its falloff: radius under a pixel somewhere; colour or opacity differ; not exposed; out
+of focus (those are THIN as well)."""
+JOINED_HEAD, JOINED_TAIL = 32, 64
+"""Bits of a segment that goes on in another at its head or tail: it has no cap there."""
 X, Y, DX, DY = 0, 1, 2, 3
 """Places in a segment's row of float64: the head on the screen and the way to the tail, pixels."""
 RADIUS0, RADIUS1, KEY0, KEY1, OPACITY, RED, GREEN, BLUE = range(8, 16)
-"""Places in the same row seen as float32. A negative opacity says that the stream's blend is `add`."""
+"""Places in the same row seen as float32. A negative opacity says that the stream's blend is `add`; the radii are those
+that are drawn, out of focus."""
+SHARP0, SHARP1, CONFUSION0, CONFUSION1 = range(4)
+"""Places in the row of a segment that is out of focus: its radii in focus, and how far it is out at its ends, pixels."""
 
 
 class Segments(NamedTuple):
@@ -27,18 +33,19 @@ class Segments(NamedTuple):
     kind: np.ndarray
     nearest: np.ndarray
     particle: np.ndarray
+    focus: np.ndarray
 
 
-def segment_bytes(varies: bool, sampled: bool) -> int:
+def segment_bytes(varies: bool, sampled: bool, blurred: bool) -> int:
     """Return the most memory that a segment takes while it is put in order: two rows of all columns, and three row numbers."""
-    return 2 * (64 + 16 * varies + 8 * sampled + 9) + 12
+    return 2 * (64 + 16 * varies + 8 * sampled + 16 * blurred + 9) + 12
 
 
-def empty_segments(count: int, varies: bool, sampled: bool) -> Segments:
-    """Return room for `count` segments; colours of tails only if any varies, particles only if they are sampled."""
+def empty_segments(count: int, varies: bool, sampled: bool, blurred: bool) -> Segments:
+    """Return room for `count` segments: colours of tails, particles and radii in focus only where any differ or are wanted."""
     places = np.empty((count, 8), np.float64)
     return Segments(
         places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
-        np.empty(count if sampled else 0, np.int64),
+        np.empty(count if sampled else 0, np.int64), np.empty((count if blurred else 0, 4), np.float32),
     )

@@ -11,8 +11,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from graphfx.render.patches import Patch
-from graphfx.render.projection import Slab
 from graphfx.render.scene import Scene
+from graphfx.render.view import Slab
 
 HALF = 16
 KEYS = (1 << 32) - 1

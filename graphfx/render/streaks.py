@@ -27,6 +27,9 @@ class Streaks:
     | `head_color`, `tail_color` | linear RGB | (3, n) or one (r, g, b); values above 1 are allowed |
     | `head_opacity`, `tail_opacity` | 0 to 1 | at the centre |
     | `share` | 0 to 1 | the part of the shutter for which the particle lives (`exposed` only) |
+    | `part` | 0 to 1 | the part of that time that this streak takes, which is a piece of the particle's whole |
+    | `joined` | | 1: the streak goes on in another at its head, 2: at its tail, 3: at both; it has no caps there |
+    | `head_moment`, `tail_moment` | 0 to 1 | when head and tail are seen: 0 by the head camera, 1 by the tail camera |
     | `blend` | | `over`, or `add`: shines without hiding what is behind |
     | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc` |
     | `rows` | | the numbers of those that are drawn, in their order; all if not given |
@@ -44,6 +47,10 @@ class Streaks:
     head_opacity: Column = 1.0
     tail_opacity: Column | None = None
     share: Column = 1.0
+    part: Column = 1.0
+    joined: Column = 0.0
+    head_moment: Column = 0.0
+    tail_moment: Column = 1.0
     blend: str = "over"
     falloff: str = "linear"
     streak: str = "exposed"
@@ -71,16 +78,17 @@ class Streaks:
         return self.tail_color is not None or self.tail_opacity is not None
 
     def columns(self, start: int, stop: int) -> list[np.ndarray]:
-        """Return the 17 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
+        """Return the 21 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
 
-        Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share.
+        Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share, part,
+        joined, head and tail moment.
         """
         tail = self.head if self.tail is None else self.tail
         tail_radius = self.head_radius if self.tail_radius is None else self.tail_radius
         tail_color = self.head_color if self.tail_color is None else self.tail_color
         tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
         given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
-                 self.head_opacity, tail_opacity, self.share]
+                 self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment]
         rows = slice(start, stop) if self.rows is None else self.rows[start:stop]
         return [self._column(np.asarray(column).reshape(-1), rows) for column in given]
 

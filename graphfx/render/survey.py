@@ -31,7 +31,7 @@ def survey(
         if not finite(columns, i):
             dropped += 1
             continue
-        visible, _, _, segment = screen_segment(columns, i, view)
+        visible, _, _, segment, _, _ = screen_segment(columns, i, view, look)
         if not visible or not touches(segment, look.reach, window):
             continue
         x, y, dx, dy, r0, r1, _, _ = segment
@@ -64,7 +64,7 @@ def count_keys(
         number = first + i
         if window.top_rows[number] > window.last_row or window.bottom_rows[number] < window.first_row:
             continue
-        visible, _, _, segment = screen_segment(columns, i, view)
+        visible, _, _, segment, _, _ = screen_segment(columns, i, view, look)
         if visible and touches(segment, look.reach, window):
             key = _key(segment)
             if low <= key <= high:

@@ -15,6 +15,8 @@ import numpy as np
 from .polygon_reference import composite, fragments_of
 
 F = np.float32
+MOMENTS = {"linear": 0.15, "gaussian": 0.09780020026157243, "disc": 0.25}
+"""Mean of x^2 over a still particle of radius 1."""
 INTEGRALS = {  # (across a streak, over a still particle) of radius 1
     "linear": (1.0, math.pi / 3),
     "gaussian": (0.8201803507618952, 0.6628397001716525),
@@ -36,6 +38,11 @@ class Segment:
     solid: bool
     add: bool
     perspective: bool
+    confusion: tuple[float, float] = (0.0, 0.0)
+    """Pixels out of focus at head and tail, times the square root of 1 / (4 moment)."""
+    joined: tuple[bool, bool] = (False, False)
+    portion: float = 1.0
+    """The part of the whole streak's time that a joined segment takes; 1 for others."""
 
     @property
     def length(self) -> float:
@@ -43,7 +50,7 @@ class Segment:
 
     @property
     def reach(self) -> float:
-        return max(*self.radius, 1.0) + (0.5 if self.falloff == "disc" else 0.0)
+        return max(*self.drawn(np.array([0.0, 1.0]))) + (0.5 if self.falloff == "disc" else 0.0)
 
     def nearest(self, x, y):
         """Return t of the closest point to pixel centres, and the distance."""
@@ -52,11 +59,23 @@ class Segment:
         t = np.clip((across * self.way[0] + down * self.way[1]) / squared, 0, 1) if squared > 1e-12 else across * 0
         return t, np.hypot(across - t * self.way[0], down - t * self.way[1])
 
+    def drawn(self, t):
+        """Return the radius that is drawn: as spread as what is convolved with the lens's disc, and at least a pixel."""
+        radius = self.radius[0] + t * (self.radius[1] - self.radius[0])
+        confusion = self.confusion[0] + t * (self.confusion[1] - self.confusion[0])
+        return np.maximum(np.hypot(radius, confusion), 1.0)
+
+    def owned(self, x, y):
+        """Return the pixels that do not lie beyond a joint."""
+        along = (x - self.head[0]) * self.way[0] + (y - self.head[1]) * self.way[1]
+        return ~((along < 0) & self.joined[0]) & ~((along >= self.length**2) & self.joined[1])
+
     def at(self, x, y):
         """Return (opacity before that of the particle, t, whether there is a fragment) at pixel centres."""
         t, distance = self.nearest(x, y)
+        distance = np.where(self.owned(x, y), distance, np.inf)
         radius = self.radius[0] + t * (self.radius[1] - self.radius[0])
-        clamped = np.maximum(radius, 1.0)
+        clamped = self.drawn(t)
         across, area = INTEGRALS[self.falloff]
         if self.falloff == "disc":
             shape = np.clip(clamped + 0.5 - distance, 0, 1)
@@ -66,9 +85,9 @@ class Segment:
             edge = math.exp(-4.5)
             shape = np.maximum((np.exp(-4.5 * (distance / clamped) ** 2) - edge) / (1 - edge), 0)
         if self.solid:
-            total, room = (area * r**2 + across * r * self.length for r in (radius, clamped))
+            total, room = (area * r**2 + across * r * self.length / self.portion for r in (radius, clamped))
             return shape * total / room, t, shape > 0
-        speed = self.length * self.inverse_depth(t) ** 2 / (self.inverse_depth(0) * self.inverse_depth(1))
+        speed = self.length / self.portion * self.inverse_depth(t) ** 2 / (self.inverse_depth(0) * self.inverse_depth(1))
         return shape * area * radius**2 / (area * clamped**2 + across * clamped * speed), t, shape > 0
 
     def inverse_depth(self, t):
@@ -91,13 +110,20 @@ def value(column, i, components=0):
 
 def evened(segment):
     """Return the factor that keeps a small particle's sum over all pixel centres at its true total."""
-    fade = np.clip(2 - max(segment.radius), 0, 1) * np.clip(2 - segment.length / 8, 0, 1)
+    fade = np.clip(2 - max(np.hypot(segment.radius, segment.confusion)), 0, 1) * np.clip(2 - segment.length / 8, 0, 1)
     if fade == 0:
         return 1.0
     across, area = INTEGRALS[segment.falloff]
     true = area * np.mean(np.square(segment.radius))
     if segment.solid:
         true += across * np.mean(segment.radius) * segment.length
+    if any(segment.joined):
+        radius = np.mean(segment.radius)
+        drawn, caps, length = max(radius, 1.0), 1 - sum(segment.joined) / 2, segment.length
+        true = area * radius**2 + (across * radius * length / segment.portion if segment.solid else 0)
+        true *= (area * drawn**2 * caps + across * drawn * length) / (
+            area * drawn**2 + across * drawn * length / segment.portion
+        )
     corner = np.floor(segment.head)
     grid = np.arange(-24, 25) + 0.5
     sampled = segment.at(*np.meshgrid(corner[0] + grid, corner[1] + grid))[0].sum()
@@ -110,19 +136,16 @@ def project(stream, i, head_camera, tail_camera, width, height):
     radii = [value(stream.head_radius if r is None else r, i) for r in (stream.head_radius, stream.tail_radius)]
     colors = [value(stream.head_color if c is None else c, i, 3) for c in (stream.head_color, stream.tail_color)]
     opacities = [value(stream.head_opacity if o is None else o, i) for o in (stream.head_opacity, stream.tail_opacity)]
-    share = value(stream.share, i)
+    share, part = value(stream.share, i), np.clip(value(stream.part, i), 0, 1)
     if not np.isfinite([*stream.head[:, i], *tail[:, i], *radii, *np.ravel(colors), *opacities, share]).all():
         return "dropped"
-    ends = []  # X and Y in pixels times depth, depth, radius in pixels times depth; then colour, opacity: linear in s
-    for camera, point, radius, color, opacity in zip(
-        (head_camera, tail_camera), (stream.head[:, i], tail[:, i]), radii, colors, opacities, strict=True
+    ends = []  # what is linear in s: see `homogeneous`
+    for moment, point, radius, color, opacity in zip(
+        (stream.head_moment, stream.tail_moment), (stream.head[:, i], tail[:, i]), radii, colors, opacities, strict=True
     ):
-        right, up, ahead = camera.axes()
-        offset = np.asarray(point, np.float64) - camera.position
-        depth, scale = offset @ ahead, camera.scale(width)
-        center = depth if camera.perspective else 1.0
-        x, y = scale * (offset @ right) + width / 2 * center, height / 2 * center - scale * (offset @ up)
-        ends.append(np.array([x, y, depth, max(radius, 0) * scale, *color, np.clip(opacity, 0, 1)]))
+        early, late = (homogeneous(camera, point, radius, width, height) for camera in (head_camera, tail_camera))
+        moment = value(moment, i)
+        ends.append(np.array([*((1 - moment) * early + moment * late), *color, np.clip(opacity, 0, 1)]))
     cut = planes(ends[0][2], ends[1][2], head_camera.near, head_camera.far)
     if cut is None or max(ends[0][3], ends[1][3]) == 0:
         return None
@@ -130,14 +153,38 @@ def project(stream, i, head_camera, tail_camera, width, height):
     divisors = (first[2], last[2]) if head_camera.perspective else (1.0, 1.0)
     points = [end[:2] / d for end, d in zip((first, last), divisors, strict=True)]
     keys = [F(-1 / end[2] if head_camera.perspective else end[2]) for end in (first, last)]
+    spread = 0.5 / math.sqrt(MOMENTS[stream.falloff])
+    portion = part * (cut[1] - cut[0])
     segment = Segment(
         points[0], points[1] - points[0], (first[3] / divisors[0], last[3] / divisors[1]), tuple(keys),
-        np.stack([first[4:7], last[4:7]]), (1, 1), stream.falloff, stream.streak == "solid", stream.blend == "add",
-        head_camera.perspective,
+        np.stack([first[5:8], last[5:8]]), (1, 1), stream.falloff, stream.streak == "solid", stream.blend == "add",
+        head_camera.perspective, (spread * first[4] / divisors[0], spread * last[4] / divisors[1]),
     )
-    factor = evened(segment) * (1 if segment.solid else np.clip(share, 0, 1) * (cut[1] - cut[0]))
-    segment.opacity = tuple(min(end[7] * factor, 1.0) for end in (first, last))
+    joined = int(value(stream.joined, i))
+    if joined and portion > 0 and segment.length >= max(*segment.drawn(np.array([0.0, 1.0])), 1.0):
+        segment.joined = (bool(joined & 1) and cut[0] == 0, bool(joined & 2) and cut[1] == 1)
+    if any(segment.joined):
+        segment.portion = portion
+    factor = evened(segment)
+    if not segment.solid:
+        factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)
+    segment.opacity = tuple(min(end[8] * factor, 1.0) for end in (first, last))
     return segment
+
+
+def homogeneous(camera, point, radius, width, height):
+    """Return X and Y in pixels, depth, radius and radius of confusion in pixels; in perspective all but depth times depth."""
+    right, up, ahead = camera.axes()
+    offset = np.asarray(point, np.float64) - camera.position
+    depth, scale = offset @ ahead, camera.scale(width)
+    center = depth if camera.perspective else 1.0
+    x, y = scale * (offset @ right) + width / 2 * center, height / 2 * center - scale * (offset @ up)
+    confusion = 0.0
+    if camera.f_stop < math.inf:
+        lens, focus = camera.lens / 1000, camera.focus_distance
+        diameter = lens**2 * (depth - focus) / (camera.f_stop * (focus - lens))  # on the film, m, times depth; signed
+        confusion = diameter / 2 / 0.036 * width
+    return np.array([x, y, depth, max(radius, 0) * scale, confusion])
 
 
 def planes(head, tail, near, far):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from graphfx.render.camera import Camera
@@ -40,3 +42,29 @@ def comets(seed: int, count: int = 60, **look) -> Streaks:
 def film(*streams: Streaks, camera: Camera = CAMERA, tail_camera: Camera | None = None, size=(WIDTH, HEIGHT), threads: int = 1):
     """Render."""
     return render(list(streams), camera, tail_camera, *size, threads)
+
+
+def cut(whole: Streaks, *moments: float, joined: bool = True) -> list[Streaks]:
+    """Return streaks in pieces that meet at moments between head (0) and tail (1), everything being even in time."""
+    bounds = [0.0, *moments, 1.0]
+    tail_radius = whole.head_radius if whole.tail_radius is None else whole.tail_radius
+
+    def at(head, tail, moment):
+        return (np.asarray(head, float) + moment * (np.asarray(tail, float) - head)).astype(np.float32)
+
+    made = []
+    for k, (first, last) in enumerate(pairwise(bounds)):
+        ends = [{
+            "": at(whole.head, whole.tail, moment),
+            "_radius": at(whole.head_radius, tail_radius, moment),
+            "_color": at(whole.head_color, whole.head_color if whole.tail_color is None else whole.tail_color, moment),
+            "_opacity": at(whole.head_opacity, whole.head_opacity if whole.tail_opacity is None else whole.tail_opacity, moment),
+            "_moment": moment,
+        } for moment in (first, last)]
+        given = {f"{side}{name}": value for side, end in zip(("head", "tail"), ends, strict=True) for name, value in end.items()}
+        joints = ((k > 0) + 2 * (last < 1)) if joined else 0
+        made.append(Streaks(
+            **given, share=whole.share, part=last - first, joined=float(joints),
+            blend=whole.blend, falloff=whole.falloff, streak=whole.streak,
+        ))
+    return made
