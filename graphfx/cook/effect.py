@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook import warm
+from graphfx.cook.cameras import check_cameras
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_limits
@@ -143,6 +144,7 @@ class Effect:
         """
         limits = limits or CookLimits()
         check_limits(self.plan, limits)
+        check_cameras(self.plan)
         executor: Executor = (
             ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
         )

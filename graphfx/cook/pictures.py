@@ -7,22 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook.cameras import camera_at
 from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.simulate import Simulation
-from graphfx.graph.flat import FlatNode
-from graphfx.plan.pictures import Drawn, ImagePlan, plain_value
-from graphfx.render.camera import Camera
+from graphfx.plan.pictures import Drawn, ImagePlan
 from graphfx.render.film import Film
 from graphfx.render.lines import draw_lines
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
-
-
-def camera_at(node: FlatNode, time: float, frame: int) -> Camera:
-    """Return a camera as it stands at a time."""
-    given = {name: plain_value(value, time, frame) for name, value in node.arguments.items()}
-    given["width_of_view"] = given.pop("view_width")
-    return Camera(**given)
 
 
 def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> Film:

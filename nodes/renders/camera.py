@@ -2,6 +2,13 @@
 
 Perspective: an object of size s at depth d covers s / d * lens / 36 of the picture's width, the film being
 36 mm wide. Orthographic: it covers s / view_width.
+
+With an `f_stop` a perspective camera has a depth of field: a point at depth d is spread over a disc on the film of diameter
+
+    c = lens^2 |d - focus_distance| / (f_stop d (focus_distance - lens))
+
+which widens a particle and makes it fainter, its total of light kept. Every number may change with time, by keys or an
+expression; while the shutter is open, the camera moves as on a straight line from where it was at its opening.
 """
 
 from graphfx.math import Vec3
@@ -16,6 +23,8 @@ def camera(
     projection: str = param("perspective", choices=("perspective", "orthographic"), doc="How depth shows."),
     lens: float = param(35.0, unit="mm", min=1, max=10000, doc="Focal length over a film 36 mm wide, for perspective."),
     view_width: float = param(10.0, unit="m", min=1e-6, doc="Width that the picture shows, for orthographic."),
+    f_stop: float = param(INFINITY, min=1e-3, doc="Lens over the width of its opening; infinite, all is sharp."),
+    focus_distance: float = param(10.0, unit="m", min=1e-6, doc="Depth along the view that is sharp, where there is an f_stop."),
     near: float = param(0.01, unit="m", min=1e-6, doc="What is nearer is not drawn."),
     far: float = param(INFINITY, unit="m", min=1e-6, doc="What is farther is not drawn."),
 ) -> None:
