@@ -126,7 +126,6 @@ def _color(value):
 
 
 @inner
-@inner
 def screen_segment(columns, i, view, look):
     """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1), radii in focus, pixels out of it) of particle i."""
     head = _at_moment(columns, i, 0, 6, np.float64(_value(columns, 19, i)), view)
@@ -190,7 +189,8 @@ def _write_place(segment, pace, kind, segments, at):
 def _write_focus(sharp, confusion, segments, at):
     """Write what a segment that is out of focus would be in focus, and how far it is out."""
     focus = segments.focus
-    focus[at, SHARP0], focus[at, SHARP1], focus[at, CONFUSION0], focus[at, CONFUSION1] = *sharp, *confusion
+    focus[at, SHARP0], focus[at, SHARP1] = sharp[0], sharp[1]
+    focus[at, CONFUSION0], focus[at, CONFUSION1] = confusion[0], confusion[1]
 
 
 @inner
@@ -215,7 +215,6 @@ def _write_look(columns, i, first, last, factor, look, segments, at):
     return opacity0 != 0.0 or opacity1 != 0.0
 
 
-@inner
 @inner
 def _in_slab(nearest, number, slab):
     """Return whether a particle is among those of a slab of depth."""

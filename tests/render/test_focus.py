@@ -7,11 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from graphfx.render import renderer
 from graphfx.render.camera import Camera
 from graphfx.render.falloff import FALLOFFS
+from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
 
-from .scenes import CAMERA, comets, film, streaks
+from .scenes import CAMERA, comets, cut, film, streaks
 from .test_against_reference import LOOKS, hold
 
 OPEN = replace(CAMERA, f_stop=0.02, focus_distance=6.0)
@@ -93,3 +95,12 @@ def test_impossible_lenses_are_refused(wrong, message):
     """Each with the number that is wrong."""
     with pytest.raises(ValueError, match=message):
         Camera(**wrong)
+
+
+@pytest.mark.parametrize("memory", [1, 1 << 15])
+def test_blur_and_joints_need_no_memory_at_once(memory, monkeypatch):
+    """Patches and slabs of depth give the same bytes out of focus and in pieces, on any threads."""
+    monkeypatch.setattr(renderer, "LEAST_MEMORY", 1)
+    scene = [*cut(comets(55, 200), 0.4), streaks(56, 100, blend="add")]
+    whole, parts = (render(scene, OPEN, CAMERA, 45, 37, threads, memory=m) for threads, m in ((1, np.inf), (2, memory)))
+    assert whole.pixels.tobytes() == parts.pixels.tobytes() and whole.fragments == parts.fragments

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from graphfx.render import renderer
 from graphfx.render.camera import Camera
 from graphfx.render.patches import Counts, Patch, false_position, patches_within
-from graphfx.render.projection import Slab
 from graphfx.render.renderer import render
 from graphfx.render.slabs import slabs_of
 from graphfx.render.streaks import Streaks
+from graphfx.render.view import Slab
 
 from .scenes import CAMERA, FLAT, HEIGHT, WIDTH, comets, streaks
 
