@@ -48,34 +48,34 @@ from graphfx.render.weights import GREATEST_PACE, joined_total, joints_of, pace_
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
-GREATEST_COLOR = np.float32(1e30)
+GREATEST_COLOR = 1e30
 """Colours are kept within this, so that differences and sums of them stay finite."""
 
 
 @inner
-def _value(columns, c, i):
+def value_of(columns, c, i):
     """Return particle i's value of column c: row 0 of `columns` holds the addresses, row 1 the masks of the index."""
-    return float_at(columns[0, c], i & columns[1, c])
+    return np.float64(float_at(columns[0, c], i & columns[1, c]))
 
 
 @inner
 def _transformed(columns, i, place, size, seen):
     """Return (x w, y w, w, radius w, c w) of particle i's point in columns `place` ... + 2, its radius in column `size`."""
     matrix = seen.matrix
-    x, y, z = _value(columns, place, i), _value(columns, place + 1, i), _value(columns, place + 2, i)
+    x, y, z = value_of(columns, place, i), value_of(columns, place + 1, i), value_of(columns, place + 2, i)
     depth = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3]
     return (
         matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3],
         matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3],
         depth,
-        max(np.float64(_value(columns, size, i)), 0.0) * seen.scale,
+        max(value_of(columns, size, i), 0.0) * seen.scale,
         seen.confusion * (depth - seen.focus),
     )
 
 
 @inner
-def _at_moment(columns, i, place, size, moment, view):
-    """Return the same at a moment between the cameras."""
+def seen_at(columns, i, place, size, moment, view):
+    """Return the same at a moment between the cameras, 0 the head's and 1 the tail's."""
     if moment == 0.0:
         return _transformed(columns, i, place, size, view.head)
     after = _transformed(columns, i, place, size, view.tail)
@@ -110,7 +110,7 @@ def finite(columns, i):
     """Return whether all numbers of particle i are finite."""
     total = 0.0
     for c in range(17):
-        value = _value(columns, c, i)
+        value = value_of(columns, c, i)
         total += value - value
     return total == 0.0
 
@@ -122,14 +122,14 @@ def _unit(value):
 
 @inner
 def _color(value):
-    return np.float64(min(max(value, -GREATEST_COLOR), GREATEST_COLOR))
+    return min(max(value, -GREATEST_COLOR), GREATEST_COLOR)
 
 
 @inner
 def screen_segment(columns, i, view, look):
     """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1), radii in focus, pixels out of it) of particle i."""
-    head = _at_moment(columns, i, 0, 6, np.float64(_value(columns, 19, i)), view)
-    tail = _at_moment(columns, i, 3, 7, np.float64(_value(columns, 20, i)), view)
+    head = seen_at(columns, i, 0, 6, value_of(columns, 19, i), view)
+    tail = seen_at(columns, i, 3, 7, value_of(columns, 20, i), view)
     first, last = _between_planes(head[2], tail[2], view.near, view.far)
     x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
     y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
@@ -197,13 +197,13 @@ def _write_focus(sharp, confusion, segments, at):
 def _write_look(columns, i, first, last, factor, look, segments, at):
     """Write colour and opacity of both ends; return whether any opacity is left."""
     values, tails = segments.values, segments.tails
-    head, tail = _unit(np.float64(_value(columns, 14, i))), _unit(np.float64(_value(columns, 15, i)))
+    head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
     opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, 1.0))
     opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, 1.0))
     values[at, OPACITY] = opacity0
     varying = opacity0 != opacity1
     for c in range(3):
-        head, tail = _color(_value(columns, 8 + c, i)), _color(_value(columns, 11 + c, i))
+        head, tail = _color(value_of(columns, 8 + c, i)), _color(value_of(columns, 11 + c, i))
         values[at, RED + c] = _mixed(head, tail, first)
         if look.varies:
             tails[at, c] = _mixed(head, tail, last)
@@ -232,8 +232,8 @@ def _write_segment(columns, i, view, look, window, number, segments, at):
     if confusion[0] != 0.0 or confusion[1] != 0.0:
         kind |= BLURRED | THIN
         _write_focus(sharp, confusion, segments, at)
-    pace, portion = pace_of(segment, look, view.perspective), _unit(np.float64(_value(columns, 17, i))) * (last - first)
-    joints = joints_of(np.int64(_value(columns, 18, i)), segment, first, last)
+    pace, portion = pace_of(segment, look, view.perspective), _unit(value_of(columns, 17, i)) * (last - first)
+    joints = joints_of(np.int64(value_of(columns, 18, i)), segment, first, last)
     total, factor = true_total(sharp, segment, look), 1.0
     if joints != 0 and portion > 0.0:
         kind |= joints
@@ -246,7 +246,7 @@ def _write_segment(columns, i, view, look, window, number, segments, at):
         return False
     factor *= evenness(segments, at, view.perspective, total)
     if look.exposed:
-        factor *= _unit(np.float64(_value(columns, 16, i)))
+        factor *= _unit(value_of(columns, 16, i))
     return _write_look(columns, i, first, last, factor, look, segments, at)
 
 
