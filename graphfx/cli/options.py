@@ -42,3 +42,21 @@ def _parse_settings(context: click.Context, parameter: click.Parameter, given: t
 parameters: Callable[[Any], Any] = click.option(
     "--set", "parameters", multiple=True, metavar="NAME=VALUE", callback=_parse_settings,
     help="Give a parameter of the graph a value; may be given more than once.")
+threads: Callable[[Any], Any] = click.option(
+    "--threads", type=click.IntRange(1, 256), metavar="N", help="Threads to use; all processors if not given.")
+
+
+def _keep_limit(context: click.Context, parameter: click.Parameter, given: int | None) -> None:
+    """Put a limit that is given among the command's `limits`, by its name there."""
+    limits = context.params.setdefault("limits", {})
+    if given is not None:
+        limits[(parameter.name or "").removeprefix("limit_")] = given
+
+
+def limits(command: Any) -> Any:
+    """Give a command the options that raise or lower limits; it gets `limits`, those that were stated."""
+    shared: dict[str, Any] = {"type": click.IntRange(1), "metavar": "N", "expose_value": False, "callback": _keep_limit}
+    for option in (click.option("--limit-pixels", help="Pixels of a picture, at most.", **shared),
+                   click.option("--limit-particles", help="Particles of an emitter alive at once, at most.", **shared)):
+        command = option(command)
+    return command

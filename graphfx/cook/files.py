@@ -44,7 +44,7 @@ def check_files(plan: Plan, out: Path, frames: Iterable[int]) -> None:
 
 def _problem(node: FlatNode, message: str) -> Problem:
     value = node.arguments["file"]
-    return Problem(message, value.location if value.location.line else node.location, value.path)
+    return Problem(message, value.location if value.location.file else node.location, value.path)
 
 
 def _fault(names: list[str], out: Path) -> str:

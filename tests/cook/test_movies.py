@@ -7,7 +7,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -90,12 +89,9 @@ def test_killed_cook_leaves_no_half_movie(tmp_path: Path):
     process = subprocess.Popen([sys.executable, "-m", "graphfx", "cook", "long.json", "--out", "."], cwd=tmp_path,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stderr is not None
-    for line in process.stderr:
-        if line.startswith("frame 20 "):
-            break
+    assert any(line.startswith("frame 20 ") for line in process.stderr)
     process.send_signal(signal.SIGKILL)
     process.communicate(timeout=60)
-    time.sleep(0.1)
     assert [name for name in names(tmp_path) if not name.endswith(".part")] == ["long.json"]
 
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from graphfx.cli.options import debug, library, parameters
+from graphfx.cli.options import debug, library, limits, parameters, threads
 from graphfx.cli.progress import in_words, progress_for
 from graphfx.errors import EXIT_INTERRUPTED, OutputError
 
@@ -27,17 +27,15 @@ if TYPE_CHECKING:
 @click.option("--frames", metavar="SET", help="Frames to write: 12, 1-48, 1-48x2 or several with commas; all if not given.")
 @click.option("--out", metavar="DIR", help="Folder for the files, made if missing; out/NAME OF THE GRAPH if not given.")
 @parameters
-@click.option("--threads", type=click.IntRange(1, 256), metavar="N", help="Threads to use; all processors if not given.")
+@threads
 @library
-@click.option("--limit-particles", type=click.IntRange(1), metavar="N", help="Particles of an emitter alive at once, at most.")
-@click.option("--limit-pixels", type=click.IntRange(1), metavar="N", help="Pixels of a picture, at most.")
+@limits
 @click.option("--dry-run", is_flag=True, help="Say what would be written, and write nothing.")
 @click.option("--json", "as_json", is_flag=True, help="Print a line of JSON for each frame, and one at the end.")
 @debug
 @click.pass_context
 def command(context: click.Context, graph: str, frames: str | None, out: str | None, parameters: dict[str, str],
-            threads: int | None, library: tuple[str, ...], limit_particles: int | None, limit_pixels: int | None,
-            dry_run: bool, as_json: bool) -> None:
+            threads: int | None, library: tuple[str, ...], limits: dict[str, int], dry_run: bool, as_json: bool) -> None:
     """Simulate GRAPH and write its frames."""
     from graphfx.lanes.host import use_wide_registers
 
@@ -46,11 +44,10 @@ def command(context: click.Context, graph: str, frames: str | None, out: str | N
     from graphfx.cook.frames import parse_frames
     from graphfx.cook.limits import CookLimits
 
-    given = {"particles": limit_particles, "pixels": limit_pixels}
-    limits = CookLimits(**{name: limit for name, limit in given.items() if limit is not None})
     effect = load(graph, library, parameters)
     wanted = parse_frames(frames, effect.frames[0], effect.frames[-1]) if frames is not None else effect.frames
-    cook = Cook(effect, wanted, Path("out") / effect.flat.name if out is None else Path(out), threads, limits, as_json)
+    folder = Path("out") / effect.flat.name if out is None else Path(out)
+    cook = Cook(effect, wanted, folder, threads, CookLimits(**limits), as_json)
     if dry_run:
         cook.tell()
         return
@@ -70,9 +67,9 @@ def typed(context: click.Context) -> list[str]:
             again += [part for name, given in value.items() for part in ("--set", f"{name}={given}")]
         elif option.name == "library":
             again += [part for folder in value for part in ("--library", folder)]
-        elif option.name in ("threads", "limit_particles", "limit_pixels") and value is not None:
+        elif option.name in ("threads", "size") and value is not None:
             again += [option.opts[0], str(value)]
-    return again
+    return again + [part for name, limit in context.params["limits"].items() for part in (f"--limit-{name}", str(limit))]
 
 
 def ready(out: Path) -> None:
@@ -111,6 +108,7 @@ class Cook:
 
     def run(self) -> None:
         """Cook all frames; say what was made."""
+        from graphfx.cook.movies import movie_file
         from graphfx.lanes.cache import listeners
 
         self.check()
@@ -138,7 +136,10 @@ class Cook:
         if self.as_json:
             self._print({"frames": len(self.done), "files": len(files), "seconds": round(seconds, 3)})
         else:
-            click.echo(f"wrote {counted(len(files), 'file')} in {self.out} ({in_words(seconds)})")
+            movies = [str(movie_file(movie, self.effect.flat.name, self.out)) for movie in self.effect.plan.movies]
+            stills = len(files) - len(movies)
+            told = [*([f"{counted(stills, 'file')} in {self.out}"] if stills else []), *movies]
+            click.echo(f"wrote {', '.join(told)} ({in_words(seconds)})")
 
     def _warn(self) -> None:
         """Tell of particles that the pictures do not show as they should."""
@@ -151,17 +152,19 @@ class Cook:
         """Say what would be written."""
         from graphfx.cook.files import file_name
         from graphfx.cook.frames import frames_text
+        from graphfx.cook.movies import movie_file
 
         self.check()
-
         images = [{"node": image.node.path, "size": [int(number) for number in image.value("size")],
                    "files": [str(self.out / file_name(str(image.value("file")), self.effect.flat.name, frame))
-                             for frame in self.frames]} for image in self.effect.plan.images]
+                             for frame in self.frames]} for image in self.effect.plan.stills]
+        movies = [{"node": movie.node.path, "size": [int(number) for number in movie.image.value("size")],
+                   "files": [str(movie_file(movie, self.effect.flat.name, self.out))]} for movie in self.effect.plan.movies]
         if self.as_json:
-            self._print({"frames": self.frames, "images": images})
+            self._print({"frames": self.frames, "images": images, **({"movies": movies} if movies else {})})
             return
         click.echo(f"would write frames {frames_text(self.frames)}: {counted(len(self.frames), 'frame')}")
-        for image in images:
+        for image in (*images, *movies):
             files = image["files"]
             last = f" to {files[-1]}" if len(files) > 1 else ""
             click.echo(f"  {image['node']}: {image['size'][0]} x {image['size'][1]}, {files[0]}{last}")
@@ -170,9 +173,12 @@ class Cook:
         """Say what is left after Ctrl-C, and the command for it."""
         from graphfx.cook.frames import frames_text
 
-        left = [frame for frame in self.frames if frame not in set(self.done)]
+        movies = self.effect.plan.movies
+        left = [frame for frame in self.frames if movies or frame not in set(self.done)]
         made = f"after frame {self.done[-1]}; all files in {self.out} are whole" if self.done else "before any file was written"
-        click.echo(f"stopped {made}. To go on:", err=True)
+        if movies:
+            made += f"; no movie is written, as it needs all of its {counted(len(self.frames), 'frame')}"
+        click.echo(f"stopped {made}. To {'begin again' if movies else 'go on'}:", err=True)
         click.echo(f"  {shlex.join([*again, '--frames', frames_text(left)])}", err=True)
 
     @staticmethod
