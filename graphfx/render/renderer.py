@@ -75,26 +75,27 @@ class _Rendering:
 
     def run(self) -> None:
         """Render all at once if the memory allows it, or patch by patch."""
-        scene, whole = self.scene, whole_picture(self.scene.width, self.scene.height)
-        if scene.count * scene.segment_bytes <= self.memory:
-            layers = self._layers(whole)
-            segments, self.film.dropped = self._segments(whole, layers)
-            tiles = self._tiles(segments, whole, layers, self.memory - scene.segment_bytes // 2 * len(segments.kind))
-            if tiles is not None:
-                self._composite(segments, tiles, layers)
-                return
-            del segments, layers
+        whole = whole_picture(self.scene.width, self.scene.height)
+        if self.scene.count * self.scene.segment_bytes <= self.memory and self._patch(whole, self.memory):
+            return
         self.listener("survey")
-        counts, self.film.dropped = scene.survey()
+        counts, self.film.dropped = self.scene.survey()
         for patch in patches_within(counts, whole, self.memory, uncut=self.sampler is not None):
             if counts.memory(patch) > self.memory and self.sampler is None:
                 self._tile_in_slabs(patch, counts)
-                continue
-            layers = self._layers(patch)
-            segments, _ = self._segments(patch, layers)
-            tiles = self._tiles(segments, patch, layers)
-            assert tiles is not None
-            self._composite(segments, tiles, layers)
+            else:
+                self._patch(patch)
+
+    def _patch(self, patch: Patch, memory: float = np.inf) -> bool:
+        """Render a patch; return whether it could be done within a memory."""
+        layers = self._layers(patch)
+        segments, dropped = self._segments(patch, layers)
+        tiles = self._tiles(segments, patch, layers, memory - self.scene.segment_bytes // 2 * len(segments.kind))
+        if tiles is None:
+            return False
+        self.film.dropped += dropped
+        self._composite(segments, tiles, layers)
+        return True
 
     def _layers(self, patch: Patch) -> Layers | None:
         """Return the fragments of polygons in a patch, or None where the picture has no polygons."""
@@ -143,6 +144,7 @@ class _Rendering:
                 assert tiles is not None
                 self.listener("tiles")
                 yield segments, tiles, slab == slabs[-1]
+                del segments, tiles
 
         state = Slabs(layers)
         self.film.fragments += composite_slabs(made(), state, False, self.film.pixels)
