@@ -101,6 +101,21 @@ def check(textbook: Textbook, threads: int) -> None:
     print(f"greatest difference from C, of 20 000 streaks: {np.abs(ours - theirs).max():.1e}")
 
 
+def contenders_for(count: int, textbook: Textbook, threads: int) -> list[Contender]:
+    """Return all ways to render so many streaks."""
+    solid, exposed, comets = scene(count, "solid"), scene(count, "exposed"), scene(count, "exposed", comets=True)
+    runs: dict[str, Callable[[Callable[[str], Any]], int | None]] = {
+        "solid": exactly(solid, CAMERA, threads),
+        "solid, C": lambda listen: textbook.render(solid)[1],
+        "solid, one depth each": lambda listen: by_one_depth(solid, CAMERA, WIDTH, HEIGHT, threads) is None,
+        "exposed": exactly(exposed, CAMERA, threads),
+        "exposed, perspective": exactly(exposed, PERSPECTIVE, threads),
+        "exposed comets, perspective": exactly(comets, PERSPECTIVE, threads),
+        "piercing": exactly(piercing(count), CAMERA, threads),
+    }
+    return [Contender(f"{count} {name}", run) for name, run in runs.items()]
+
+
 def main() -> None:
     """Measure every scene."""
     use_wide_registers()
@@ -111,16 +126,7 @@ def main() -> None:
         check(textbook, threads)
         groups: list[list[Contender]] = []
         for count in counts:
-            solid = scene(count, "solid")
-            groups.append([
-                Contender(f"{count} solid", exactly(solid, CAMERA, threads)),
-                Contender(f"{count} solid, C", lambda _, solid=solid: textbook.render(solid)[1]),
-                Contender(f"{count} solid, one depth each", lambda _, solid=solid: by_one_depth(solid, CAMERA, WIDTH, HEIGHT, threads) is None),
-                Contender(f"{count} exposed", exactly(scene(count, "exposed"), CAMERA, threads)),
-                Contender(f"{count} exposed, perspective", exactly(scene(count, "exposed"), PERSPECTIVE, threads)),
-                Contender(f"{count} exposed comets, perspective", exactly(scene(count, "exposed", comets=True), PERSPECTIVE, threads)),
-                Contender(f"{count} piercing", exactly(piercing(count), CAMERA, threads)),
-            ])
+            groups.append(contenders_for(count, textbook, threads))
         contenders = [each for group in groups for each in group]
         for each in contenders:
             each.once()
@@ -130,9 +136,10 @@ def main() -> None:
                 each.once()
     medians = [[each.report() for each in group] for group in groups]
     for count, (ours, c, one_depth, *_) in zip(counts, medians, strict=True):
-        print(f"{count}: C takes {c / ours:.2f} times the time, one depth each {one_depth / ours:.2f}: exact order is {ours / one_depth:.2f} times that")
+        print(f"{count}: C takes {c / ours:.2f} times the time; exact order {ours / one_depth:.2f} times that of one depth each")
     for count, before, after in zip(counts[1:], medians, medians[1:], strict=False):
-        print(f"up to {count}: " + ", ".join(f"{contender.name.split(' ', 1)[1]} {b / a:.1f}" for contender, a, b in zip(groups[0], before, after, strict=True)) + " times the time")
+        ratios = [f"{each.name.split(' ', 1)[1]} {b / a:.1f}" for each, a, b in zip(groups[0], before, after, strict=True)]
+        print(f"up to {count}, times the time: {'; '.join(ratios)}")
 
 
 if __name__ == "__main__":

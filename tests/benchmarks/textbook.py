@@ -79,7 +79,7 @@ def _at(array: np.ndarray) -> ctypes.c_void_p:
 def _draw(segments, q, local, group, square, scratch):
     key, shape, t, hit = fragments(local, group, square)
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
-    add_layer(scratch.light, group * LIGHT, where(hit, opacity * shape, 0.0), red, green, blue)
+    add_layer(scratch.light, group * LIGHT, where(hit, opacity * shape, 0.0), red, green, blue, None)
 
 
 @compiled
@@ -97,7 +97,7 @@ def _tiles_by_one_depth(segments, tiles, start, stop, scratch, pixels):
             for group in range(first, last + 1):
                 _draw(segments, q, local, group, tiles.perspective, scratch)
         for group in range(GROUPS):
-            write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group])
+            write_pixels(scratch.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, scratch.inside[group], None)
 
 
 def by_one_depth(streaks: Streaks, camera: Camera, width: int, height: int, threads: int) -> np.ndarray:
