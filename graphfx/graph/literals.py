@@ -30,7 +30,7 @@ def lane(kind: str) -> str:
 def wanted(want: Parameter) -> str:
     """Return what a parameter should be given, with its unit."""
     if want.choices:
-        return f"one of {', '.join(want.choices)}"
+        return f"{'a list of some' if want.type == 'list' else 'one'} of {', '.join(want.choices)}"
     if want.type == "list" and want.default:
         return f"a list such as {list(want.default)}"
     return _WANTED.get(want.type, want.type) + (f" [{want.unit}]" if want.unit else "")
@@ -75,6 +75,12 @@ def out_of_range(value: Any, want: Parameter) -> str:
     return ""
 
 
+def not_chosen(value: Any, want: Parameter) -> bool:
+    """Return whether a value, or an entry of a list, is none of a parameter's choices."""
+    parts = value if isinstance(value, tuple) else (value,)
+    return bool(want.choices) and any(str(part) not in want.choices for part in parts)
+
+
 class Literals:
     """Reads literals; complaints go to the checking."""
 
@@ -91,7 +97,7 @@ class Literals:
             value, message, notes = None, str(refusal), refusal.notes
         if value is not None:
             message = out_of_range(value, want)
-            if want.choices and not item.is_text and str(value) not in want.choices:
+            if not item.is_text and not_chosen(value, want):
                 message = not_one_of(item, want.name, want.choices)
             if not message and want.type == "direction" and not any(value):
                 message = f"{want.name} is a direction, and [0, 0, 0] points nowhere"
@@ -161,6 +167,11 @@ def _list(item: Item, want: Parameter) -> tuple[Any, str]:
     if like and len(item.value) != len(like):
         return None, f"{want.name} should be a list of {len(like)}, such as {list(like)}; here stands {item.words}"
     for index, part in enumerate(item.value):
+        if want.choices:
+            if not part.is_text or part.value not in want.choices:
+                return None, not_one_of(part, f"entry {index} of {want.name}", want.choices)
+            if part.value in [other.value for other in item.value[:index]]:
+                return None, f"{want.name} names '{part.value}' twice; keep one"
         if not (part.is_number or part.is_text):
             return None, f"{want.name} holds numbers or texts, but entry {index} is {part.words}"
         whole = index < len(like) and type(like[index]) is int
@@ -174,7 +185,7 @@ def _list(item: Item, want: Parameter) -> tuple[Any, str]:
 def _unlike(want: Parameter, item: Item) -> str:
     """Return that an item is not what is wanted, and what to write instead."""
     name = want.name or "this"
-    if want.choices and item.is_text:
+    if want.choices and item.is_text and want.type != "list":
         return not_one_of(item, name, want.choices)
     message = f"{name} should be {wanted(want)}; here stands {item.words}"
     if item.is_list and len(item.value) == 2 and lane(want.type) in ("float", "vec3"):

@@ -258,6 +258,8 @@ def _literal(parameter: Parameter) -> Schema:
     bounds = {key: value for key, value in (("minimum", parameter.min), ("maximum", parameter.max)) if value is not None}
     number = {"type": "integer" if parameter.type == "int" else "number", **bounds}
     kind = parameter.type
+    if parameter.choices and kind == "list":
+        return {"type": "array", "items": {"enum": list(parameter.choices)}, "uniqueItems": True}
     if parameter.choices and kind not in REFERENCE_TYPES:
         return {"enum": [int(choice) for choice in parameter.choices] if kind == "int" else list(parameter.choices)}
     if kind == "float":

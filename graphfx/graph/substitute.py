@@ -10,7 +10,7 @@ from graphfx.graph.check_values import default_value
 from graphfx.graph.checking import Checking
 from graphfx.graph.fold import constant, fold
 from graphfx.graph.items import shown
-from graphfx.graph.literals import lane, out_of_range
+from graphfx.graph.literals import lane, not_chosen, out_of_range
 from graphfx.graph.model import Entry
 from graphfx.graph.names import SCOPES
 from graphfx.graph.values import (
@@ -87,7 +87,7 @@ class Substitution:
 
     def _check(self, result: Literal, value: Value, want: Parameter) -> None:
         message = out_of_range(result.value, want)
-        if not message and want.choices and result.value not in want.choices:
+        if not message and not_chosen(result.value, want):
             message = f"{want.name} should be one of {', '.join(want.choices)}, not {shown(str(result.value))}"
         if not message and want.type == "direction" and not any(result.value):
             message = f"{want.name} is a direction, and [0, 0, 0] points nowhere"
