@@ -28,7 +28,7 @@ ENGINE = {
     "plan": {"errors", "math", "node", "program", "graph", "motion"},
     "machine": {"errors", "math", "lanes", "node", "program", "store"},
     "render": {"math", "lanes", "store"},
-    "output": {"errors"},
+    "output": {"errors", "store"},
 }
 AROUND = {
     "cook": set(ENGINE),

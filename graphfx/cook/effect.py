@@ -18,20 +18,18 @@ import numpy as np
 
 from graphfx.cook import warm
 from graphfx.cook.cameras import check_cameras
+from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.movies import movie_file, open_movies
-from graphfx.cook.pictures import draw
 from graphfx.cook.simulate import Simulation
+from graphfx.cook.writing import Writer, attributes_of
 from graphfx.errors import UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
-from graphfx.output.animation import Add
-from graphfx.output.png import eight_bit, write_png
 from graphfx.plan.make import Plan, make_plan
-from graphfx.plan.pictures import ImagePlan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -101,20 +99,24 @@ class Effect:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start() if rendered else None
-        with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as writer:
+        writer = Writer(self.plan, threads)
+        with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]):
                 if frame not in wanted:
                     continue
                 if warming is not None:
                     warming.wait()
-                films = {image.node.path: draw(image, simulation, frame, threads) for image in self.plan.images}
-                stills = {out / file_name(str(image.value("file")), self.flat.name, frame): image for image in self.plan.stills}
+                stills = {image.node.path: out / file_name(str(image.value("file")), self.flat.name, frame)
+                          for image in self.plan.stills}
+                films = {image.node.path: writer.draw(stills.get(image.node.path), image, simulation, frame)
+                         for image in self.plan.images}
                 if waiting is not None:
                     yield _finished(*waiting)
-                jobs = [writer.submit(_write, file, image, films[image.node.path]) for file, image in stills.items()]
-                jobs += [writer.submit(_add, add, image, films[image.node.path]) for image, add in movies]
-                waiting = self._report(frame, simulation, list(films.values()), list(stills)), jobs
+                jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path],
+                                    attributes_of(image, simulation, frame)) for image in self.plan.stills]
+                jobs += [pool.submit(writer.add, add, image, films[image.node.path]) for image, add in movies]
+                waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
             if waiting is not None:
                 yield _finished(*waiting)
 
@@ -167,14 +169,14 @@ class Effect:
         simulation = self.simulation(threads or available_threads())
         for _ in simulation.frames(frame):
             pass
-        return draw(self.plan.images[image], simulation, frame, threads or available_threads())
+        return draw_all(self.plan.images[image], simulation, frame, threads or available_threads())
 
     def frame(self, frame: int, threads: int | None = None, image: int = 0) -> Any:
         """Return a frame as a Pillow image, which notebooks show."""
         from PIL import Image
 
-        plan = self.plan.images[image]
-        return Image.fromarray(eight_bit(_exposed(plan, self.film(frame, threads, image)), _background(plan)))
+        writer = Writer(self.plan, threads or available_threads())
+        return Image.fromarray(writer.displayed(self.plan.images[image], self.film(frame, threads, image)))
 
 
 def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:
@@ -182,28 +184,6 @@ def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:
     for job in jobs:
         job.result()
     return report
-
-
-def _write(file: Path, image: ImagePlan, film: Film) -> None:
-    file.parent.mkdir(parents=True, exist_ok=True)
-    write_png(file, _exposed(image, film), _background(image))
-
-
-def _add(add: Add, image: ImagePlan, film: Film) -> None:
-    """Add a picture to a movie."""
-    add(eight_bit(_exposed(image, film), _background(image)))
-
-
-def _background(image: ImagePlan) -> tuple[float, float, float] | None:
-    red, green, blue = (float(part) for part in image.value("background"))
-    return None if image.value("transparent") else (red, green, blue)
-
-
-def _exposed(image: ImagePlan, film: Film) -> np.ndarray:
-    """Return a film with its light scaled by 2 to the power of the exposure."""
-    scaled = film.pixels.copy()
-    scaled[..., :3] *= np.float32(2.0 ** float(image.value("exposure")))
-    return scaled
 
 
 def _columns(arrays: tuple[np.ndarray, ...], rows: np.ndarray) -> np.ndarray:

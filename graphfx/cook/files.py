@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
+from graphfx.cook.formats import faults_of_format
 from graphfx.cook.movies import fault_of_movie
 from graphfx.errors import OutputError, Problem
 from graphfx.graph.flat import FlatNode
@@ -36,14 +37,16 @@ def check_files(plan: Plan, out: Path, frames: Iterable[int]) -> None:
             other = taken[names[0].lower()]
             fault = f"the {other.node_type.name} '{other.path}' writes the same files; give each a name of its own"
         if fault:
-            problems.append(_problem(node, f"'{pattern}': {fault}"))
+            problems.append(_problem(node, "file", f"'{pattern}': {fault}"))
+        elif isinstance(output, ImagePlan):
+            problems += [_problem(node, name, wrong) for name, wrong in faults_of_format(output, pattern)]
         taken |= {name.lower(): node for name in names}
     if problems:
         raise OutputError(problems)
 
 
-def _problem(node: FlatNode, message: str) -> Problem:
-    value = node.arguments["file"]
+def _problem(node: FlatNode, parameter: str, message: str) -> Problem:
+    value = node.arguments[parameter]
     return Problem(message, value.location if value.location.file else node.location, value.path)
 
 
@@ -62,8 +65,6 @@ def _fault(names: list[str], out: Path) -> str:
 
 def _fault_of_stills(names: list[str]) -> str:
     """Return what is wrong with an image's names, or nothing."""
-    if not names[0].lower().endswith(".png"):
-        return "images are written as PNG; let the name end in .png"
     if len(set(names)) < len(names):
         return "every frame would be written over the one before; put #### where its number goes"
     return ""

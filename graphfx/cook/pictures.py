@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,19 +15,8 @@ from graphfx.plan.pictures import Drawn, ImagePlan
 from graphfx.render.film import Film
 from graphfx.render.lines import draw_lines
 from graphfx.render.renderer import render
+from graphfx.render.samples import Samples
 from graphfx.render.streaks import Streaks
-
-
-def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int) -> Film:
-    """Return the picture of a frame."""
-    time = simulation.clock.time_of(frame)
-    shutter = float(image.value("shutter", time, frame))
-    opening = max(time - shutter / simulation.clock.fps, simulation.clock.start)
-    reach = shutter / simulation.plan.shutter if simulation.plan.shutter > 0 else 0.0
-    streams = [streaks_of(_chosen(simulation, drawn, frame), drawn.looks, time, opening, reach) for drawn in image.streams]
-    width, height = (int(number) for number in image.value("size"))
-    way = draw_lines if image.node.node_type.role == "preview" else render
-    return way(streams, camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame), width, height, threads)
 
 
 @dataclass
@@ -35,6 +25,26 @@ class Chosen:
 
     particles: Particles
     rows: np.ndarray | None = None
+
+
+Sampling = Callable[[list[Chosen]], Callable[[Samples], None]]
+
+
+def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int, sampling: Sampling | None = None) -> Film:
+    """Return the picture of a frame; `sampling` is given the particles drawn, by stream, and returns what takes their samples."""
+    time = simulation.clock.time_of(frame)
+    shutter = float(image.value("shutter", time, frame))
+    opening = max(time - shutter / simulation.clock.fps, simulation.clock.start)
+    reach = shutter / simulation.plan.shutter if simulation.plan.shutter > 0 else 0.0
+    chosen = [_chosen(simulation, drawn, frame) for drawn in image.streams]
+    streams = [
+        streaks_of(each, drawn.looks, time, opening, reach) for each, drawn in zip(chosen, image.streams, strict=True)
+    ]
+    cameras = camera_at(image.camera, time, frame), camera_at(image.camera, opening, frame)
+    drawn = [Chosen(each.particles, drawn_rows(each, time, opening)[0]) for each in chosen] if sampling else []
+    if image.node.node_type.role == "preview":
+        return draw_lines(streams, *cameras, *image.size, threads)
+    return render(streams, *cameras, *image.size, threads, sampler=sampling(drawn) if sampling else None)
 
 
 def _chosen(simulation: Simulation, drawn: Drawn, frame: int) -> Chosen:
@@ -54,12 +64,9 @@ def streaks_of(chosen: Chosen, look: dict[str, Any], time: float, opening: float
 
     `reach` is the length of this shutter in those of the longest, at whose opening tails are taken.
     """
-    particles, shown = chosen.particles, chosen.rows
+    particles = chosen.particles
     store = particles.store
-    share = _shares(particles, time, opening)
-    if share is not None:
-        drawn = np.flatnonzero(share > 0)
-        shown = drawn if shown is None else drawn[flagged(shown, store.count)[drawn]]
+    shown, share = drawn_rows(chosen, time, opening)
 
     def column(name: str) -> Any:
         value = particles.value(name)
@@ -91,7 +98,16 @@ def streaks_of(chosen: Chosen, look: dict[str, Any], time: float, opening: float
     )
 
 
-def _shares(particles: Particles, time: float, opening: float) -> np.ndarray | None:
+def drawn_rows(chosen: Chosen, time: float, opening: float) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Return the rows of the particles that are drawn, or None for all, and the part of the shutter for which each row lived."""
+    share, shown = shares(chosen.particles, time, opening), chosen.rows
+    if share is not None:
+        drawn = np.flatnonzero(share > 0)
+        shown = drawn if shown is None else drawn[flagged(shown, chosen.particles.store.count)[drawn]]
+    return shown, share
+
+
+def shares(particles: Particles, time: float, opening: float) -> np.ndarray | None:
     """Return the part of the shutter for which each particle lived, or None if that is 1 for all."""
     store = particles.store
     length = time - opening

@@ -175,6 +175,8 @@ def _needs_id(reading: Reading) -> str:
         return f"names the parents of {holder.spawns[0].path}"
     if holder.of_role("recycle"):
         return "keys the random numbers of later lives"
+    if reading.readers.get("id") == "the renderer":
+        return "read by the renderer"
     return "keys the random numbers of a picture's selection" if "id" in reading.readers else ""
 
 

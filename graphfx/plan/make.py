@@ -17,7 +17,7 @@ from graphfx.plan.liveness import Attributes, Reading, find_attributes, reads_at
 from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
-from graphfx.plan.pictures import READ, Drawn, ImagePlan, MoviePlan, image_plan
+from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.sources import Sources
 from graphfx.plan.spawning import SpawnPlan, SpawnWriter
@@ -108,7 +108,7 @@ class Plan:
     @cached_property
     def shutter(self) -> float:
         """Return the longest time that a shutter is open [frames]: tails are taken when it opens."""
-        return max((float(image.value("shutter")) for image in self.images), default=0.0)
+        return max((image.tail_shutter for image in self.images), default=0.0)
 
 
 def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
@@ -142,7 +142,7 @@ class _Planner:
     def _drawn(self, path: str) -> tuple[list[Drawn], float]:
         """Return the streams of images that draw a source's particles, and the longest shutter."""
         drawn = [(image, each) for image in self.images for each in image.streams if each.path == path]
-        return [each for _, each in drawn], max((float(image.value("shutter")) for image, _ in drawn), default=0.0)
+        return [each for _, each in drawn], max((image.tail_shutter for image, _ in drawn), default=0.0)
 
     def _all_attributes(self) -> dict[str, Attributes]:
         """Find what is stored of each source: all that its children read, which grows until no child needs more."""
@@ -207,7 +207,7 @@ class _Planner:
         reading = Reading(holder)
         for image in self.images:
             if any(each.path == holder.path for each in image.streams):
-                reading.note(READ[image.node.node_type.role], "the renderer")
+                reading.note(image.reads, "the renderer")
         for each in drawn:
             if each.condition is not None:
                 reading.note(names_in(each.condition) | ({"id"} if draws_in(each.condition) else set()), "what is drawn")

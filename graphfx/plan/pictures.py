@@ -16,6 +16,8 @@ READ = {
     "preview": ("position", "color", "opacity"),
 }
 """Attributes that a picture reads, by the role of the node that draws it."""
+MOTION = 0.5
+"""Frames over which velocities are taken where the shutter stays shut."""
 
 
 @dataclass
@@ -37,8 +39,31 @@ class ImagePlan:
     streams: list[Drawn]
 
     def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
-        """Return one of the image's parameters."""
-        return plain_value(self.node.arguments[name], time, frame)
+        """Return one of the image's parameters, or None where its node has no such parameter."""
+        return plain_value(self.node.arguments[name], time, frame) if name in self.node.arguments else None
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Return its width and height in pixels."""
+        width, height = (int(number) for number in self.value("size"))
+        return width, height
+
+    @property
+    def channels(self) -> list[str]:
+        """Return what it holds besides colour and alpha, in the order of their declaration; deep samples hold ids."""
+        given = {*(self.value("channels") or ()), *(("depth", "id") if self.value("deep") else ())}
+        return [name for name in self.node.node_type.parameters["channels"].choices if name in given] if given else []
+
+    @property
+    def reads(self) -> tuple[str, ...]:
+        """Return the attributes that it reads of particles."""
+        return (*READ[self.node.node_type.role], *(("id",) if "id" in self.channels else ()))
+
+    @property
+    def tail_shutter(self) -> float:
+        """Return how long before a frame tails are taken [frames]: as the shutter opens, or in time to tell velocities."""
+        moving = MOTION if {"velocity", "world_velocity"} & {*self.channels} else 0.0
+        return float(self.value("shutter")) or moving
 
 
 @dataclass

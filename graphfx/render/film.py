@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,9 +12,11 @@ class Film:
     """A linear picture: `pixels` float32 (height, width, 4), colour times alpha and alpha, row 0 at the top.
 
     `fragments` counts pairs of a particle and a pixel that it touches, those told to lie behind opaque polygons left
-    out; `dropped` the particles and triangles left out because a number of theirs was not finite.
+    out; `dropped` the particles and triangles left out because a number of theirs was not finite. `channels`
+    (height, width) are what else was asked for, by its name in a file.
     """
 
     pixels: np.ndarray
     fragments: int = 0
     dropped: int = 0
+    channels: dict[str, np.ndarray] = field(default_factory=dict)

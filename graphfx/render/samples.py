@@ -181,7 +181,7 @@ def _band(segments: Segments, tiles: Tiles, row: int, threads: int) -> Samples:
     parallel_ranges(gather, bounds, threads)
     key = keys.view(np.float32)
     depth = -1.0 / key if tiles.perspective else key
-    return Samples(top, tiles.width, starts, depth, values[:, 0], values[:, 1:], particle)
+    return Samples(top, tiles.width, starts, depth, np.ascontiguousarray(values[:, 0]), values[:, 1:], particle)
 
 
 @compiled

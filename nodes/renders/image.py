@@ -2,6 +2,17 @@
 
 An entry of `from` is a node's id, or `{"stream": id, "blend": "over" | "add", "falloff": "linear" |
 "gaussian" | "disc", "streak": "exposed" | "solid"}`. [Sims 1990, 4]
+
+The end of `file` says the format. A PNG has the background in it, and shows light as `display` says: `srgb` clips
+what is beyond 1, `filmic` rolls it off towards white at 10 (Narkowicz's fit of the ACES curve; middle grey
+stays), `raw` is the light itself, clipped. An EXR (extra `exr`; deep ones without) holds light as it is, multiplied by
+alpha, which it keeps unless a background is stated. A background picture fills the frame, its proportions kept, and
+is cut where it is longer.
+
+`channels` of an EXR are `depth` (Z, m along the camera's axis, of the nearest of what is seen; 1e30 where nothing is), and
+of the particle that is seen most in a pixel: `velocity` (.X .Y, pixels a frame on the screen, Y upwards), `world_velocity`
+(.X .Y .Z, m/s), `id` and `stream` (whole numbers; the streams of `from`, from 1 on). A `deep` EXR has instead every
+fragment with its depth, id and such channels; flattened, it is the picture without background.
 """
 
 from graphfx.math import Vec3

@@ -56,7 +56,8 @@ def test_no_name_at_all(invoke, folder: Path, pattern: str) -> None:
 def test_message_has_its_place(invoke, folder: Path) -> None:
     """The refusal names the file, line and column of the name in the graph."""
     assert cook_as(invoke, folder, "x.####.jpg") == (
-        3, "fountain.json:1:463: nodes.image0.file: 'x.####.jpg': images are written as PNG; let the name end in .png")
+        3, "fountain.json:1:463: nodes.image0.file: 'x.####.jpg': pictures are written as PNG and as EXR; let the name end in "
+         ".png or .exr")
 
 
 def test_frames_do_not_overwrite_each_other(invoke, folder: Path) -> None:

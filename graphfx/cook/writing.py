@@ -1,0 +1,136 @@
+"""Write pictures: what becomes of a film in a file.
+
+PNG: light times 2^exposure, over the background, through the display transform, rounded. EXR: light times 2^exposure,
+multiplied by alpha, as it is; over the background only where the image states one, and then alpha is 1. Deep
+EXR: every fragment, and never a background.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.cameras import camera_at
+from graphfx.cook.channels import columns_of, deep_adder, deep_types, draw_all
+from graphfx.cook.formats import bits_of, ending
+from graphfx.cook.simulate import Simulation
+from graphfx.errors import OutputError, Problem
+from graphfx.output.animation import Add
+from graphfx.output.backdrop import read_backdrop
+from graphfx.output.deep import deep_file
+from graphfx.output.display import DISPLAYS, Background, displayed, over
+from graphfx.output.exr import write_exr
+from graphfx.output.png import write_png
+from graphfx.plan.make import Plan
+from graphfx.plan.pictures import ImagePlan
+from graphfx.render.camera import Camera
+from graphfx.render.film import Film
+
+
+class Writer:
+    """Draws and writes the pictures of a plan, with several threads; background pictures are read once, at the beginning."""
+
+    def __init__(self, plan: Plan, threads: int):
+        self.plan, self.threads = plan, threads
+        self.backgrounds = backgrounds_of(plan)
+
+    def draw(self, file: Path | None, image: ImagePlan, simulation: Simulation, frame: int) -> Film:
+        """Return the picture of a frame; where it is deep and a file, write its samples there as they come."""
+        if file is None or not image.value("deep"):
+            return draw_all(image, simulation, frame, self.threads)
+        types = deep_types(columns_of(image), bits_of(image))
+        exposure = float(image.value("exposure"))
+        make_folder(file)
+        with deep_file(file, *image.size, types, attributes_of(image, simulation, frame), self.threads) as deep:
+            return draw_all(image, simulation, frame, self.threads, lambda columns: deep_adder(deep, columns, exposure))
+
+    def write(self, file: Path, image: ImagePlan, film: Film, attributes: dict[str, Any]) -> None:
+        """Write a picture, unless it is deep and there already."""
+        if image.value("deep"):
+            return
+        make_folder(file)
+        if ending(file.name) == ".png":
+            write_png(file, self.displayed(image, film, bits_of(image)), _display(image) == "raw", self.threads)
+            return
+        light, background = exposed(image, film), self.backgrounds[image.node.path]
+        if background is not None and {"background", "background_image"} & image.node.given:
+            light[..., :3] = over(light, background)
+            light[..., 3] = 1.0
+        write_exr(file, light, film.channels, bits_of(image), attributes)
+
+    def displayed(self, image: ImagePlan, film: Film, bits: int = 8) -> np.ndarray:
+        """Return a picture as a display is given it, in numbers of 8 or 16 bits."""
+        background = self.backgrounds[image.node.path]
+        return displayed(exposed(image, film), background, _display(image), bits, self.threads)
+
+    def add(self, add: Add, image: ImagePlan, film: Film) -> None:
+        """Add a picture to a movie."""
+        add(self.displayed(image, film))
+
+
+def _display(image: ImagePlan) -> str:
+    return str(image.value("display") or DISPLAYS[0])
+
+
+def attributes_of(image: ImagePlan, simulation: Simulation, frame: int) -> dict[str, Any]:
+    """Return what an EXR says of a frame besides its pixels."""
+    time, flat = simulation.clock.time_of(frame), simulation.plan.flat
+    camera = camera_at(image.camera, time, frame)
+    return {
+        "frame": frame, "time": time, "graph": flat.name, "seed": str(flat.seed),
+        "worldToCamera": world_to_camera(camera), "worldToNDC": world_to_ndc(camera, *image.size),
+    }
+
+
+def world_to_camera(camera: Camera) -> np.ndarray:
+    """Return the matrix M (4, 4) for which (x, y, z, 1) M is (metres to the right, up, ahead, 1), as OpenEXR defines it."""
+    made, axes = np.eye(4), camera.axes()
+    made[:3, :3], made[3, :3] = axes.T, -axes @ np.asarray(camera.position, float)
+    return made.astype(np.float32)
+
+
+def world_to_ndc(camera: Camera, width: int, height: int) -> np.ndarray:
+    """Return the matrix M for which (x, y, z, 1) M, divided by its last number, is the place in the picture.
+
+    (0, 0) is the upper left corner, (1, 1) the lower right one, as OpenEXR defines it; the third number is the depth.
+    """
+    rows = camera.screen_matrix(width, height)
+    last = rows[2] if camera.perspective else np.array([0.0, 0.0, 0.0, 1.0])
+    return np.stack([rows[0] / width, rows[1] / height, rows[2], last], axis=1).astype(np.float32)
+
+
+def make_folder(file: Path) -> None:
+    """Make the folder of a file; raise OutputError where that cannot be."""
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {file.parent}: {error.strerror}") from error
+
+
+def exposed(image: ImagePlan, film: Film) -> np.ndarray:
+    """Return a film with its light scaled by 2 to the power of the exposure."""
+    scaled = film.pixels.copy()
+    scaled[..., :3] *= np.float32(2.0 ** float(image.value("exposure")))
+    return scaled
+
+
+def backgrounds_of(plan: Plan) -> dict[str, Background]:
+    """Return what is behind each image, by its path; raise OutputError, with their places, for pictures that cannot be read."""
+    found: dict[str, Background] = {}
+    problems = []
+    for image in plan.images:
+        red, green, blue = (float(part) for part in image.value("background"))
+        file = str(image.value("background_image") or "")
+        found[image.node.path] = None if image.value("transparent") else (red, green, blue)
+        if not file or image.value("transparent"):
+            continue
+        try:
+            found[image.node.path] = read_backdrop(file, image.size, (red, green, blue))
+        except OutputError as error:
+            value = image.node.arguments["background_image"]
+            problems.append(Problem(error.problems[0].message, value.location, value.path))
+    if problems:
+        raise OutputError(problems)
+    return found

@@ -1,0 +1,90 @@
+"""What a picture's file cannot hold is refused with its place, before any work."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from graphfx.output import exr
+
+BITS = "say so, or let the file's name end in "
+
+
+def told(invoke, folder: Path, command: str = "cook", **image: Any) -> tuple[int, list[str]]:
+    """Run a command on the fountain with an image of these parameters; return the exit code and what it says."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["nodes"]["frames"] |= image
+    (folder / "fountain.json").write_text(json.dumps(graph, indent=1))
+    code, out, err = invoke(command, "fountain.json", *(("--out", "made") if command == "cook" else ()))
+    assert {file.name for file in folder.iterdir()} <= {"fountain.json", "made", "sky.png"} and not list(folder.rglob("*.part"))
+    return code, (err or out).strip().splitlines()
+
+
+def place(folder: Path, parameter: str) -> str:
+    """Return where a parameter's value begins in the fountain."""
+    for number, line in enumerate((folder / "fountain.json").read_text().splitlines(), 1):
+        if f'"{parameter}": ' in line:
+            return f"fountain.json:{number}:{line.index(':') + 3}: nodes.frames.{parameter}: "
+    raise AssertionError(parameter)
+
+
+REFUSED = [
+    ({"bits": 32}, "bits", f"the numbers of a PNG have 8 or 16 bits; {BITS}.exr"),
+    ({"bits": 8, "file": "x.####.exr"}, "bits", f"the numbers of an EXR have 16 or 32 bits; {BITS}.png"),
+    ({"channels": ["depth"]}, "channels",
+     "a PNG holds colour and alpha alone; leave channels out, or let the file's name end in .exr"),
+    ({"deep": True}, "deep", "a PNG holds no samples; leave deep out, or let the file's name end in .exr"),
+    ({"file": "x.####.tif"}, "file", "'x.####.tif': pictures are written as PNG and as EXR; let the name end in .png or .exr"),
+]
+
+
+@pytest.mark.parametrize("command", ["cook", "check"])
+@pytest.mark.parametrize(("image", "parameter", "message"), REFUSED)
+def test_what_a_file_cannot_hold(invoke, folder: Path, command, image, parameter, message) -> None:
+    """Each is told at its place, by `cook` and by `check`; nothing is made, not even the folder."""
+    code, said = told(invoke, folder, command, **image)
+    assert (code, said) == (3 if command == "cook" else 1, [place(folder, parameter) + message])
+    assert not (folder / "made").exists()
+
+
+def test_all_faults_are_told_at_once(invoke, folder: Path) -> None:
+    """Bits, channels and samples of one PNG."""
+    code, said = told(invoke, folder, bits=32, channels=["id"], deep=True)
+    assert code == 3 and [line.split(": ")[1] for line in said] == [f"nodes.frames.{name}" for name in ("bits", "channels", "deep")]
+
+
+def test_a_missing_library_is_told_before_any_work(invoke, folder: Path, monkeypatch) -> None:
+    """The message names the extra that brings it; deep files need no library."""
+    monkeypatch.setattr(exr, "find_spec", lambda name: None)
+    code, said = told(invoke, folder, file="x.####.exr")
+    assert (code, said) == (3, [
+        place(folder, "file")
+        + "'x.####.exr': EXR files are written by OpenEXR, which is not installed; install it by: pip install \"graphfx[exr]\""])
+    assert told(invoke, folder, file="x.####.exr", deep=True)[0] == 0
+    assert len(list((folder / "made").glob("x.*.exr"))) == 6
+
+
+@pytest.mark.parametrize("command", ["cook", "check"])
+def test_a_background_that_is_no_picture(invoke, folder: Path, command) -> None:
+    """It is told at its place, before any frame."""
+    (folder / "sky.png").write_text("blue")
+    code, said = told(invoke, folder, command, background_image="sky.png")
+    assert code == (3 if command == "cook" else 1) and len(said) == 1
+    message = "the picture sky.png cannot be read: cannot identify image file"
+    assert said[0].startswith(place(folder, "background_image") + message)
+
+
+def test_a_background_that_is_not_there(invoke, folder: Path) -> None:
+    """Where it was sought is said."""
+    code, said = told(invoke, folder, background_image="sky.png")
+    assert code == 1 and said[0] == place(folder, "background_image") + "there is no file 'sky.png'." and "sought in" in said[1]
+
+
+@pytest.mark.parametrize("size", [[0, 18], [1_000_000, 1_000_000], [-4, 18]])
+def test_sizes_that_no_picture_has(invoke, folder: Path, size) -> None:
+    """0 and a million pixels on a side are told at their place."""
+    code, said = told(invoke, folder, size=size)
+    assert code == 1 and said[0].endswith(f"{size[0]} is out of range; size must lie between 1 and 65536")
