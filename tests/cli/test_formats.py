@@ -53,7 +53,8 @@ def test_what_a_file_cannot_hold(invoke, folder: Path, command, image, parameter
 def test_all_faults_are_told_at_once(invoke, folder: Path) -> None:
     """Bits, channels and samples of one PNG."""
     code, said = told(invoke, folder, bits=32, channels=["id"], deep=True)
-    assert code == 3 and [line.split(": ")[1] for line in said] == [f"nodes.frames.{name}" for name in ("bits", "channels", "deep")]
+    assert code == 3
+    assert [line.split(": ")[1] for line in said] == [f"nodes.frames.{name}" for name in ("bits", "channels", "deep")]
 
 
 def test_a_missing_library_is_told_before_any_work(invoke, folder: Path, monkeypatch) -> None:
