@@ -143,7 +143,7 @@ MESSAGES = [
     (("--size", "big"), 2, NO_SIZE.format("big")), (("--size", "0x10"), 2, NO_SIZE.format("0x10")),
     (("--frames", "9"), 2, "--frames: '9' goes beyond the graph's frames 1 to 6; change time.frames in the graph to have more\n"),
     (("--out", "a.avi"), 3, "--out: 'a.avi': movies are written as .mp4, .mov, .webp, .png; let the name end in one of them\n"),
-    (("--out", "a.####.jpg"), 3, "--out: 'a.####.jpg': images are written as PNG; let the name end in .png\n"),
+    (("--out", "a.####.jpg"), 3, "--out: 'a.####.jpg': pictures are written as PNG and as EXR; let the name end in .png or .exr\n"),
     (("--out", "fountain.json/a.webp"), 3,
      "nothing can be written in fountain.json: it is a file; choose another folder with --out\n"),
     (("--size", "65536x65536", "--out", "a.png"), 4,
