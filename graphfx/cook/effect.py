@@ -115,7 +115,7 @@ class Effect:
                     yield _finished(*waiting)
                 jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path],
                                     attributes_of(image, simulation, frame)) for image in self.plan.stills]
-                jobs += [pool.submit(writer.add, add, image, films[image.node.path]) for image, add in movies]
+                jobs += [pool.submit(writer.add, movie, films[movie.image.node.path]) for movie in movies]
                 waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
             if waiting is not None:
                 yield _finished(*waiting)

@@ -4,12 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
+from dataclasses import dataclass
 from pathlib import Path, PurePath
 
 from graphfx.output.animation import LARGEST_WEBP, Add, animated_png, animated_webp
+from graphfx.output.atomic import make_folder
 from graphfx.output.video import h264, has_video, prores, video
 from graphfx.plan.make import Plan
 from graphfx.plan.pictures import ImagePlan, MoviePlan
+
+
+@dataclass(frozen=True)
+class Movie:
+    """A movie that is being written: the image whose pictures `add` takes, and how many bits a number of them has."""
+
+    image: ImagePlan
+    add: Add
+    bits: int
+
 
 Open = Callable[[Path, float, float, bool], AbstractContextManager[Add]]
 """Opens a movie: its file, its frames per second, its quality, and whether its pictures have alpha."""
@@ -48,14 +60,14 @@ def fault_of_movie(movie: MoviePlan, name: str) -> str:
 
 
 @contextmanager
-def open_movies(plan: Plan, out: Path) -> Iterator[list[tuple[ImagePlan, Add]]]:
-    """Give for each movie its image, and what adds a picture; the files are there when the block ends well, and only then."""
+def open_movies(plan: Plan, out: Path) -> Iterator[list[Movie]]:
+    """Give what takes the pictures of each movie; the files are there when the block ends well, and only then."""
     with ExitStack() as files:
         opened = []
         for movie in plan.movies:
             path = movie_file(movie, plan.flat.name, out)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            make = KINDS[path.suffix.lower()]
-            way = make(path, plan.flat.time.fps, float(movie.value("quality")), bool(movie.image.value("transparent")))
-            opened.append((movie.image, files.enter_context(way)))
+            make_folder(path)
+            suffix = path.suffix.lower()
+            way = KINDS[suffix](path, plan.flat.time.fps, float(movie.value("quality")), bool(movie.image.value("transparent")))
+            opened.append(Movie(movie.image, files.enter_context(way), 16 if suffix == ".mov" else 8))
         yield opened

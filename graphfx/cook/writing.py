@@ -15,9 +15,10 @@ import numpy as np
 from graphfx.cook.cameras import camera_at
 from graphfx.cook.channels import columns_of, deep_adder, deep_types, draw_all
 from graphfx.cook.formats import bits_of, ending
+from graphfx.cook.movies import Movie
 from graphfx.cook.simulate import Simulation
 from graphfx.errors import OutputError, Problem
-from graphfx.output.animation import Add
+from graphfx.output.atomic import make_folder
 from graphfx.output.backdrop import read_backdrop
 from graphfx.output.deep import deep_file
 from graphfx.output.display import DISPLAYS, Background, displayed, over
@@ -65,9 +66,9 @@ class Writer:
         background = self.backgrounds[image.node.path]
         return displayed(exposed(image, film), background, _display(image), bits, self.threads)
 
-    def add(self, add: Add, image: ImagePlan, film: Film) -> None:
+    def add(self, movie: Movie, film: Film) -> None:
         """Add a picture to a movie."""
-        add(self.displayed(image, film))
+        movie.add(self.displayed(movie.image, film, movie.bits))
 
 
 def _display(image: ImagePlan) -> str:
@@ -99,14 +100,6 @@ def world_to_ndc(camera: Camera, width: int, height: int) -> np.ndarray:
     rows = camera.screen_matrix(width, height)
     last = rows[2] if camera.perspective else np.array([0.0, 0.0, 0.0, 1.0])
     return np.stack([rows[0] / width, rows[1] / height, rows[2], last], axis=1).astype(np.float32)
-
-
-def make_folder(file: Path) -> None:
-    """Make the folder of a file; raise OutputError where that cannot be."""
-    try:
-        file.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"cannot make the folder {file.parent}: {error.strerror}") from error
 
 
 def exposed(image: ImagePlan, film: Film) -> np.ndarray:

@@ -12,6 +12,14 @@ from typing import BinaryIO
 from graphfx.errors import OutputError, Problem
 
 
+def make_folder(file: Path) -> None:
+    """Make the folder of a file; raise OutputError where that cannot be."""
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"cannot make the folder {file.parent}: {error.strerror}") from error
+
+
 @contextmanager
 def whole_path(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Give the path of a file that is yet to be written, and that becomes the file `path` when the block ends well.

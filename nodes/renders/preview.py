@@ -17,8 +17,10 @@ def preview(
     size: list = param((640, 360), type="list", min=1, max=65536, doc="Width and height in pixels."),
     shutter: float = param(0.5, unit="frames", min=0, max=1, doc="How long the shutter is open; 0 draws dots."),
     background: Vec3 = param((0, 0, 0), type="color", min=0, doc="Colour behind the particles."),
+    background_image: str = param("", type="path", doc="A picture behind the particles, cut to the frame's shape."),
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),
     exposure: float = param(0.0, unit="stops", min=-30, max=30, doc="The picture's light is scaled by 2 to this power."),
+    display: str = param("srgb", choices=("srgb", "filmic", "raw"), doc="How light becomes the numbers of the picture."),
     file: str = param("{graph}.####.png", doc="Name of the files; #### is the frame and {graph} the graph's name."),
 ) -> None:
     """Draw."""

@@ -24,7 +24,7 @@ from graphfx.graph.flatten import flatten
 from graphfx.lanes.host import use_wide_registers
 from graphfx.node import Library, library_roots
 from graphfx.output.animation import animated_webp
-from graphfx.output.png import eight_bit
+from graphfx.output.display import displayed
 from graphfx.store.threads import available_threads
 
 LIFE, FPS = 14, 24
@@ -48,7 +48,7 @@ def run(effect: Effect, threads: int, beside: bool) -> Times:
     with (tempfile.TemporaryDirectory() as folder, animated_webp(Path(folder, "snow.webp"), FPS, QUALITY) as add,
           ThreadPoolExecutor(1) as writer):
         def encode(pixels: np.ndarray) -> None:
-            add(eight_bit(pixels, BACKGROUND))
+            add(displayed(pixels, BACKGROUND))
 
         waiting: Future[None] | None = None
         begun = time.perf_counter()
