@@ -7,7 +7,7 @@
     stream          which of the streams of the image it belongs to, whole, from 1 on
 
 All but depth are those of the particle that is seen most in the pixel (see render/samples.py), since a mean of two
-would be that of neither; 0 where nothing is seen. Velocities are means over the shutter, or over half a frame
+would be that of neither; 0 for polygons, and where nothing is seen. Velocities are means over the shutter, or over half a frame
 where it stays shut. In deep files each sample has its own.
 """
 
@@ -68,7 +68,10 @@ def draw_all(image: ImagePlan, simulation: Simulation, frame: int, threads: int,
 
 
 def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, drawn: list[Chosen]) -> dict[str, np.ndarray]:
-    """Return what an image's channels hold of every particle drawn, of all streams together, by name in the file."""
+    """Return what an image's channels hold of every particle drawn, of all streams together, by name in the file.
+
+    The last row, which NOTHING as a number means, is 0.
+    """
     clock, found = simulation.clock, dict[str, list[np.ndarray]]()
     time = clock.time_of(frame)
     opening = max(time - simulation.plan.shutter / clock.fps, clock.start)
@@ -88,7 +91,7 @@ def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, drawn
         for channel, columns in values.items():
             for name, column in zip(COLUMNS[channel], columns.T, strict=True):
                 found.setdefault(name, []).append(column)
-    return {name: np.concatenate(parts) for name, parts in found.items()}
+    return {name: np.concatenate([*parts, np.zeros(1, parts[0].dtype)]) for name, parts in found.items()}
 
 
 def columns_of(image: ImagePlan) -> list[str]:
@@ -135,14 +138,9 @@ class Channels:
 
     def made(self) -> dict[str, np.ndarray]:
         """Return the channels (height, width), by name."""
-        shape = self.height, self.width
-        found = {"Z": self.nearest.reshape(shape)} if self.depth else {}
-        seen = self.strongest != NOTHING
-        for name, column in self.columns.items():
-            values = np.zeros(len(seen), column.dtype)
-            values[seen] = column[self.strongest[seen]]
-            found[name] = values.reshape(shape)
-        return found
+        strongest = self.strongest.reshape(self.height, self.width)
+        found = {"Z": self.nearest.reshape(strongest.shape)} if self.depth else {}
+        return found | {name: column[strongest] for name, column in self.columns.items()}
 
 
 def deep_types(names: Iterable[str], bits: int) -> dict[str, np.dtype[Any]]:

@@ -44,8 +44,8 @@ def render(
     The cameras are those at the end and at the opening of the shutter (None: the same); near and far
     planes are the head's, which sees the polygons too. `memory` is the number of bytes that may be used beside streams,
     polygons and film; what is too much for it is made patch by patch. Any number of threads and any memory give the same
-    bytes. `listener` is called with the name of each step as it begins, `sampler` with the samples of particles of each band
-    of rows, from the top.
+    bytes. `listener` is called with the name of each step as it begins, `sampler` with the samples of each band of rows, from
+    the top.
     """
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:
@@ -126,7 +126,7 @@ class _Rendering:
         self.film.fragments += composite(segments, tiles, layers, self.scene.threads, self.film.pixels)
         if self.sampler is not None:
             self.listener("samples")
-            for samples in sample_bands(segments, tiles, self.scene.threads):
+            for samples in sample_bands(segments, tiles, layers, self.scene.threads):
                 self.sampler(samples)
 
     def _tile_in_slabs(self, patch: Patch, counts: Counts) -> None:

@@ -5,21 +5,23 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.render import Polygons
 from graphfx.render.camera import Camera
 from graphfx.render.renderer import render
 from graphfx.render.samples import NOTHING, fold_samples
 from graphfx.render.streaks import Streaks
 
+from .meshes import LIGHTING, picture, triangles
 from .reference import reference
 from .scenes import CAMERA, FLAT, HEIGHT, WIDTH, comets, film, streaks
 
 CAMERAS = pytest.mark.parametrize("camera", [CAMERA, FLAT], ids=["perspective", "orthographic"])
 
 
-def sampled(*streams, camera=CAMERA, size=(WIDTH, HEIGHT), threads=1):
+def sampled(*streams, camera=CAMERA, size=(WIDTH, HEIGHT), threads=1, **given):
     """Return the film and, for each pixel, its samples as (depth, opacity, color, particle)."""
     bands = []
-    made = render(list(streams), camera, None, *size, threads, sampler=bands.append)
+    made = render(list(streams), camera, None, *size, threads, sampler=bands.append, **given)
     pixels = []
     for band in bands:
         assert band.top == len(pixels) // band.width
@@ -148,3 +150,37 @@ def test_nothing_to_sample():
     """An empty picture has bands without samples."""
     _, pixels = sampled(Streaks(np.zeros((3, 0), np.float32)), camera=Camera())
     assert all(len(depth) == 0 for depth, *_ in pixels)
+
+
+@CAMERAS
+@pytest.mark.parametrize("opacity", [1.0, 0.6])
+def test_polygons_among_particles(camera, opacity):
+    """Samples with polygons flatten to the picture, edges and crossings too; polygons are no particle."""
+    polygons = [triangles(7, 12, opacity=opacity, color_map=picture(5, opaque=True)), triangles(8, 6)]
+    streams = [streaks(1), comets(2, blend="add")]
+    made, pixels = sampled(*streams, camera=camera, polygons=polygons, lighting=LIGHTING)
+    np.testing.assert_allclose(flattened(pixels), made.pixels.reshape(-1, 4), atol=5e-6)
+    numbers = np.concatenate([particle for *_, particle in pixels])
+    assert numbers.min() == NOTHING and numbers.max() < 120
+    for depth, opacities, _, particle in pixels:
+        assert (np.diff(depth) >= 0).all() and (opacities[particle == NOTHING] >= 0).all() and (opacities <= 1).all()
+
+
+def test_two_triangles_that_share_an_edge_hide_all():
+    """What one covers of a pixel and what the other covers are together the whole, also in samples."""
+    corners = np.array([[-9, -9, 0], [9, -9, 0], [9, 9, 0], [-9, 9, 0]], float)
+    wall = Polygons(corners, np.array([[0, 1, 2], [0, 2, 3]]), shading="unlit")
+    _, pixels = sampled(streaks(1), polygons=[wall])
+    np.testing.assert_allclose(flattened(pixels)[:, 3], 1, atol=1e-6)
+    assert max(len(depth) for depth, *_ in pixels) > 1
+
+
+def test_memory_changes_no_sample():
+    """Made patch by patch, samples are the same to the bit, with polygons and without."""
+    polygons = [triangles(9, 12), triangles(10, 6, opacity=0.5)]
+    for given in ({}, {"polygons": polygons}):
+        streams = streaks(8, 60000, radius=(0.01, 0.05)), comets(9, 500, blend="add")
+        whole, parts = (sampled(*streams, memory=memory, **given)[1] for memory in (np.inf, 1))
+        for a, b in zip(whole, parts, strict=True):
+            for left, right in zip(a, b, strict=True):
+                np.testing.assert_array_equal(left, right)
