@@ -15,7 +15,7 @@ _BY_ROLE: dict[str, dict[str, Any]] = {
     "spawn": {"when": "death", "count": 8, "spread": 1},
 }
 """What nodes of the language are given, where nothing but a use of theirs makes sense."""
-_REFERENCES = ("node", "mesh", "surface", "selector", "stream")
+_REFERENCES = ("node", "nodes", "mesh", "surface", "selector", "stream")
 
 
 class Sample:
@@ -28,6 +28,8 @@ class Sample:
         self.nodes: dict[str, Any] = {"source": self.source}
         self.seen = "source"
         self.drawn_by = "image"
+        self.drawn: list[str] = []
+        self.looks: dict[str, Any] = {}
         self.after: dict[str, Any] = {}
         """Nodes that take the image."""
         build = getattr(self, f"_{node_type.kind}", None)
@@ -37,7 +39,8 @@ class Sample:
     def graph(self) -> dict[str, Any]:
         """Return the graph as JSON data."""
         self.nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
-        self.nodes["frames"] = {"type": self.drawn_by, "from": self.seen, "camera": "view", "size": [640, 360]}
+        self.nodes["frames"] = {"type": self.drawn_by, "from": self.drawn or self.seen, "camera": "view", "size": [640, 360],
+                                **self.looks}
         self.nodes |= self.after
         return {"graphfx": 1, "time": {"frames": [1, 48]}, "nodes": self.nodes}
 
@@ -76,6 +79,13 @@ class Sample:
     def _renders(self, node_type: NodeType) -> None:
         if node_type.role in PICTURES:
             self.drawn_by = node_type.name
+        elif node_type.role == "polygons":
+            self.nodes["drawn"] = {"type": node_type.name, **self._given(node_type)}
+            self.drawn = [self.seen, "drawn"]
+        elif node_type.role == "light":
+            self.nodes["light"] = {"type": node_type.name}
+            self._renders(self.library["polygons"])
+            self.looks["lights"] = ["light"]
         elif node_type.role == "movie":
             self.after["movie"] = {"type": node_type.name, "image": "frames", "file": "{graph}.webp"}
 

@@ -8,18 +8,20 @@ from pathlib import Path
 from graphfx.cook.files import check_files
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.meshes import Meshes
+from graphfx.cook.polygons import PolygonMaker
 from graphfx.cook.writing import backgrounds_of
 from graphfx.errors import GraphfxError, Problem
 from graphfx.plan.make import Plan
 
 
 def problems_before(plan: Plan) -> list[Problem]:
-    """Return what is wrong with the names of a plan's files, with its size, its meshes and its background pictures."""
+    """Return what is wrong with the names of a plan's files, with its size, its meshes, polygons and background pictures."""
     time = plan.flat.time
     checks: list[Callable[[], object]] = [
         lambda: check_files(plan, Path(), range(time.first, min(time.first + 1, time.last) + 1)),
         lambda: check_limits(plan, CookLimits()),
         lambda: _check_meshes(plan),
+        lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images),
         lambda: backgrounds_of(plan),
     ]
     problems: list[Problem] = []

@@ -59,7 +59,7 @@ class Meshes:
     def at(self, path: str, time: float, frame: int) -> MeshTables:
         """Return the tables of a mesh as it stands at a time [s]."""
         node = self.flat.nodes[path]
-        standing = tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
+        standing = self._standing(path, time, frame)
         kept = self._tables.setdefault(path, {})
         key = (standing, path in self._searched)
         if key not in kept:
@@ -67,6 +67,18 @@ class Meshes:
                 del kept[next(iter(kept))]
             kept[key] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
         return kept[key]
+
+    def mesh(self, path: str, time: float, frame: int) -> Mesh:
+        """Return a mesh as it stands at a time [s]."""
+        return self._located(self.flat.nodes[path]).moved(*transform(*self._standing(path, time, frame)))
+
+    def check(self, path: str, check: Callable[[Mesh], None]) -> None:
+        """Make a mesh and look at it; what is wrong is told at its node."""
+        self._located(self.flat.nodes[path], check)
+
+    def _standing(self, path: str, time: float, frame: int) -> tuple[tuple[float, ...], ...]:
+        node = self.flat.nodes[path]
+        return tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
 
     def vertices(self, path: str) -> int:
         """Return how many vertices a mesh has."""

@@ -10,11 +10,12 @@ import numpy as np
 
 from graphfx.cook.cameras import camera_at
 from graphfx.cook.particles import Particles, flagged, padded
+from graphfx.cook.polygons import lighting_of
 from graphfx.cook.simulate import Simulation
 from graphfx.plan.pictures import Drawn, ImagePlan
 from graphfx.render.film import Film
 from graphfx.render.lines import draw_lines
-from graphfx.render.renderer import render
+from graphfx.render.renderer import NO_LIGHTS, render
 from graphfx.render.samples import Samples
 from graphfx.render.streaks import Streaks
 
@@ -44,7 +45,10 @@ def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int, sam
     drawn = [Chosen(each.particles, drawn_rows(each, time, opening)[0]) for each in chosen] if sampling else []
     if image.node.node_type.role == "preview":
         return draw_lines(streams, *cameras, *image.size, threads)
-    return render(streams, *cameras, *image.size, threads, sampler=sampling(drawn) if sampling else None)
+    polygons = [simulation.polygons.polygons(node, time, frame) for node in image.polygons]
+    lighting = lighting_of(image, time, frame) if polygons else NO_LIGHTS
+    sampler = sampling(drawn) if sampling else None
+    return render(streams, *cameras, *image.size, threads, sampler=sampler, polygons=polygons, lighting=lighting)
 
 
 def _chosen(simulation: Simulation, drawn: Drawn, frame: int) -> Chosen:

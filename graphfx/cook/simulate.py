@@ -16,6 +16,7 @@ from graphfx.cook.lives import Lives
 from graphfx.cook.meshes import Meshes
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import NO_ROWS, Particles, flagged
+from graphfx.cook.polygons import PolygonMaker
 from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Spawns
 from graphfx.errors import CookError, Problem
@@ -35,6 +36,7 @@ class Simulation:
         self.plan = plan
         self.clock = Clock(time.fps, time.first, time.preroll)
         meshes = Meshes(plan.flat)
+        self.polygons = PolygonMaker(meshes)
         self.programs = Programs(plan, executor, meshes)
         self.particles: dict[str, Particles] = {}
         for path, emitter in plan.emitters.items():
@@ -57,6 +59,7 @@ class Simulation:
     def frames(self, last: int) -> Iterator[int]:
         """Simulate up to frame `last`, yielding each frame's number from the first on."""
         self.programs.prepare()
+        self.polygons.prepare(self.plan.images)
         beginning = self.interval
         for particles in self.particles.values():
             if particles.births is not None:

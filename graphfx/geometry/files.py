@@ -45,7 +45,10 @@ def _part(part: Any) -> Mesh:
     vertices = np.array(part.vertices, np.float64).reshape(-1, 3)
     faces = getattr(part, "faces", None)
     triangles = np.zeros((0, 3), np.int64) if faces is None else np.array(faces, np.int64).reshape(-1, 3)
-    return Mesh(vertices, triangles)
+    places = getattr(getattr(part, "visual", None), "uv", None)
+    if places is None or len(places) != len(vertices) or not len(triangles):
+        return Mesh(vertices, triangles)
+    return Mesh(vertices, triangles, None, np.array(places, np.float64)[triangles, :2])
 
 
 def _together(parts: list[Mesh]) -> Mesh:
@@ -55,6 +58,9 @@ def _together(parts: list[Mesh]) -> Mesh:
     triangles = np.concatenate([part.triangles + start for part, start in zip(parts, starts[:-1], strict=True)])
     if not len(triangles):
         return Mesh(vertices, triangles)
+    places = [part.coordinates for part in parts if len(part.triangles) and part.coordinates is not None]
+    whole = sum(map(len, places)) == len(triangles)
+    coordinates = np.concatenate(places) if whole else None
     _, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
     place = np.argsort(np.argsort(first))
-    return Mesh(vertices[np.sort(first)], place[number.reshape(-1)][triangles])
+    return Mesh(vertices[np.sort(first)], place[number.reshape(-1)][triangles], None, coordinates)

@@ -19,7 +19,10 @@ INSTALL = 'text needs {} which is not installed; install it by: pip install "gra
 
 
 def letters(text: str, size: float, depth: float, font: str, align: str, tracking: float, curve_steps: int) -> Mesh:
-    """Return extruded text: it stands on y = 0, looks towards +z and is half its depth to either side of z = 0."""
+    """Return extruded text: it stands on y = 0, looks towards +z and is half its depth to either side of z = 0.
+
+    Pictures are put on from the front, once for each em.
+    """
     if not text.strip():
         raise GraphError(Problem("the text has nothing to show"))
     if len(text) > MOST_LETTERS:
@@ -38,10 +41,9 @@ def letters(text: str, size: float, depth: float, font: str, align: str, trackin
         raise GraphError(Problem("the text has no letter with an outline"))
     solids = [_extruded(points * size, ends, depth, face.fill) for points, ends in flats]
     starts = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
-    return Mesh(
-        np.concatenate([solid.vertices for solid in solids]),
-        np.concatenate([solid.triangles + start for solid, start in zip(solids, starts[:-1], strict=True)]),
-    )
+    vertices = np.concatenate([solid.vertices for solid in solids])
+    triangles = np.concatenate([solid.triangles + start for solid, start in zip(solids, starts[:-1], strict=True)])
+    return Mesh(vertices, triangles, None, vertices[triangles][..., :2] / (size or 1.0))
 
 
 class _Face:

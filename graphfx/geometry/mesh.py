@@ -20,12 +20,14 @@ RADIANS = 0.017453292519943295
 class Mesh:
     """Vertices (n, 3) [m], triangles (m, 3) of their numbers, counter-clockwise seen from outside.
 
-    `normals` are the vertices' own where they have any; without triangles the mesh is a cloud of points.
+    `normals` are the vertices' own where they have any, `coordinates` (m, 3 corners, 2) the places of the triangles'
+    corners in pictures, u to the right, v upwards; without triangles the mesh is a cloud of points.
     """
 
     vertices: np.ndarray
     triangles: np.ndarray
     normals: np.ndarray | None = None
+    coordinates: np.ndarray | None = None
 
     @property
     def corners(self) -> np.ndarray:
@@ -69,7 +71,8 @@ class Mesh:
         flips = np.linalg.det(matrix) < 0
         triangles = self.triangles[:, ::-1] if flips else self.triangles
         normals = None if self.normals is None else self.normals @ _cofactors(matrix).T * (-1 if flips else 1)
-        return Mesh(self.vertices @ matrix.T + shift, triangles, normals)
+        coordinates = self.coordinates[:, ::-1] if flips and self.coordinates is not None else self.coordinates
+        return Mesh(self.vertices @ matrix.T + shift, triangles, normals, coordinates)
 
     def open_edges(self) -> int:
         """Return how many edges do not lie between just two triangles that run along them in opposite ways.
@@ -114,10 +117,18 @@ def transform(translate: Sequence[float], rotate: Sequence[float], scale: Sequen
     return rotation(rotate) * np.asarray(scale, np.float64), np.asarray(translate, np.float64)
 
 
-def polygons(vertices: Any, faces: Any, normals: np.ndarray | None = None) -> Mesh:
-    """Return a mesh from points and polygons, each cut into the triangles of a fan about its first corner."""
-    triangles = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
-    return Mesh(np.asarray(vertices, np.float64), np.array(triangles, np.int64).reshape(-1, 3), normals)
+def polygons(vertices: Any, faces: Any, coordinates: Any = None) -> Mesh:
+    """Return a mesh from points and polygons, each cut into the triangles of a fan about its first corner.
+
+    `coordinates` holds (u, v) of the corners of each polygon.
+    """
+    triangles = np.array(_fans(faces), np.int64).reshape(-1, 3)
+    places = None if coordinates is None else np.array(_fans(coordinates), np.float64).reshape(-1, 3, 2)
+    return Mesh(np.asarray(vertices, np.float64), triangles, None, places)
+
+
+def _fans(faces: Any) -> list[tuple[Any, Any, Any]]:
+    return [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
 
 
 def checked(mesh: Mesh, name: str) -> Mesh:

@@ -175,6 +175,8 @@ class NodeReader:
                     notes = (takes(entry.type_name, parameters.values()), declared(entry.node_type) if entry.node_type else "")
                     self.checking.complain(item.location, entry.path, f"{entry.type_name} needs '{parameter.name}'"
                                            + (f": {parameter.doc}" if parameter.doc else ""), *notes)
+            elif parameter.type == "nodes":
+                self._named_nodes(entry, parameter, given, path)
             elif parameter.type in REFERENCE_TYPES and not (parameter.type == "mesh" and given.is_object):
                 text = self.checking.text(given, path, f"{parameter.name}, the id of a node,")
                 if text:
@@ -188,6 +190,16 @@ class NodeReader:
                     entry.arguments[parameter.name] = value
         if entry.role == "spawn":
             check_inherited(self.checking, entry.arguments.get("inherit"), self.graph)
+
+    def _named_nodes(self, entry: Entry, parameter: Parameter, given: Item, path: str) -> None:
+        """Note the nodes of a list, each as `parameter[index]`."""
+        if not given.is_list:
+            self.checking.mismatch(given, path, f"{parameter.name} should be a list of ids of nodes")
+        for index, item in enumerate(given.value if given.is_list else ()):
+            name = f"{parameter.name}[{index}]"
+            text = self.checking.text(item, f"{entry.path}.{name}", f"an entry of {parameter.name}, the id of a node,")
+            if text:
+                entry.references[name] = (text, item.location)
 
     def _ops(self, stack: Entry, item: Item) -> None:
         ops = item.value.get("ops")

@@ -102,8 +102,19 @@ def _look(checking: Checking, item: Item, path: str) -> list[StreamReference]:
     return [StreamReference(node, port, stream.location, f"{path}.stream", looks)] if text else []
 
 
-def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -> bool:
-    """Complain unless a reference names a node that makes such a stream."""
+def _drawable(checking: Checking, node: Entry, reference: StreamReference) -> bool:
+    """Complain where polygons are given what only a stream has."""
+    if reference.port:
+        checking.complain(reference.location, reference.path,
+                          f"'{node.name}' is polygons and has no outputs; write '{node.name}'")
+    elif reference.looks:
+        checking.complain(reference.location, reference.path,
+                          f"{', '.join(reference.looks)}: particles have that, and '{node.name}' is polygons; write its id alone")
+    return not (reference.port or reference.looks)
+
+
+def check_stream(checking: Checking, graph: Graph, reference: StreamReference, drawn: bool = False) -> bool:
+    """Complain unless a reference names a node that makes such a stream, or is drawn as polygons where that may be."""
     name, path = reference.node, reference.path
     if name in graph.inputs:
         if reference.port:
@@ -111,6 +122,8 @@ def check_stream(checking: Checking, graph: Graph, reference: StreamReference) -
                               f"'{name}' is an input of this group, one stream; leave '.{reference.port}' out")
         return not reference.port
     node = graph.nodes.get(name)
+    if drawn and node is not None and node.role == "polygons":
+        return _drawable(checking, node, reference)
     if node is None:
         makers = [*graph.inputs, *(known for known, entry in graph.nodes.items() if entry.streams)]
         checking.complain(reference.location, path, f"there is no node '{name}'." + nearest(name, makers),
@@ -144,10 +157,11 @@ def check_references(checking: Checking, graph: Graph, meshes: Iterable[Literal]
         _check_target(checking, graph, Parameter("mesh", "mesh", None), mesh.value, mesh.location, mesh.path)
     for entry in walk(graph):
         for reference in streams_of(entry):
-            check_stream(checking, graph, reference)
+            check_stream(checking, graph, reference, entry.role in PICTURES)
         parameters = entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
         for name, (target, location) in entry.references.items():
-            _check_target(checking, graph, parameters[name], target, location, f"{entry.path}.{name}", entry.node_type)
+            parameter = parameters[name.partition("[")[0]]
+            _check_target(checking, graph, parameter, target, location, f"{entry.path}.{name}", entry.node_type)
         if entry.kind == "geometry":
             _check_geometry(checking, entry)
         check_condition(checking, graph, entry.only)

@@ -93,6 +93,7 @@ class Flattener:
             _read_parents(arguments, sets, own)
         references = {name: found.value for name, parameter in node_type.parameters.items() if parameter.type in REFERENCE_TYPES
                       and isinstance(found := instance.substitution.argument(entry, parameter), Literal)}
+        references |= {name: instance.prefix + target for name, (target, _) in entry.references.items() if "[" in name}
         makes = entry.kind in ("emitters", "operators")
         only = gate.only if entry.kind == "operators" or entry.role == "spawn" else None
         if entry.kind == "selectors":

@@ -16,8 +16,8 @@ CLUSTER_WAYS = ("turn", "nearest")
 """How an emitter numbers its particles, the default first."""
 PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "string", "path", "interval", "list",
                "mesh")
-REFERENCE_TYPES = ("node", "stream", "selector", "surface", "mesh")
-"""Types of parameters that name another node."""
+REFERENCE_TYPES = ("node", "nodes", "stream", "selector", "surface", "mesh")
+"""Types of parameters that name another node; `nodes` is a list of them."""
 METHODS = ("auto", "exact", "strang", "adaptive", "rk45", "sims")
 
 KEYS = {

@@ -260,6 +260,8 @@ def _literal(parameter: Parameter) -> Schema:
     kind = parameter.type
     if parameter.choices and kind == "list":
         return {"type": "array", "items": {"enum": list(parameter.choices)}, "uniqueItems": True}
+    if kind == "nodes":
+        return {"type": "array", "items": _TEXT}
     if parameter.choices and kind not in REFERENCE_TYPES:
         return {"enum": [int(choice) for choice in parameter.choices] if kind == "int" else list(parameter.choices)}
     if kind == "float":

@@ -12,7 +12,7 @@ INFINITY = float("inf")
 
 NUMERIC_TYPES = {"float": 1, "int": 1, "vec3": 3, "point": 3, "direction": 3, "color": 3, "bool": 1}
 """Types that live on lanes, with their number of components (a bool is a mask)."""
-OTHER_TYPES = ("string", "path", "interval", "list", "selector", "surface", "mesh", "stream", "node")
+OTHER_TYPES = ("string", "path", "interval", "list", "selector", "surface", "mesh", "stream", "node", "nodes")
 """Types that only the plan sees."""
 
 RESERVED = ("dt", "time", "frame", "id", "draw")

@@ -59,7 +59,7 @@ def _image_data(image: ImagePlan) -> dict[str, Any]:
         "type": image.node.node_type.name,
         "size": [int(number) for number in image.value("size")],
         "camera": image.camera.path,
-        "draws": list(dict.fromkeys(drawn.path for drawn in image.streams)),
+        "draws": list(dict.fromkeys([*(drawn.path for drawn in image.streams), *(node.path for node in image.polygons)])),
     }
 
 

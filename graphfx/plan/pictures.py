@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphfx.graph.flat import FlatNode
@@ -32,11 +32,13 @@ class Drawn:
 
 @dataclass
 class ImagePlan:
-    """One image: `streams` are the particles that it draws."""
+    """One image: `streams` are the particles that it draws, `polygons` and `lights` the nodes of those."""
 
     node: FlatNode
     camera: FlatNode
     streams: list[Drawn]
+    polygons: list[FlatNode] = field(default_factory=list)
+    lights: list[FlatNode] = field(default_factory=list)
 
     def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
         """Return one of the image's parameters, or None where its node has no such parameter."""
@@ -88,6 +90,7 @@ def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
 def image_plan(node: FlatNode, sources: Sources) -> ImagePlan:
     """Return the plan of a node that draws."""
     streams: list[Drawn] = []
+    nodes, dropped = sources.flat.nodes, sources.schedule.dropped
     for source, look in zip(node.sources, node.looks or ({},) * len(node.sources), strict=True):
         for top in sources.schedule.kept(source, sources.flat):
             for path, condition in sources.reaching(top).items():
@@ -98,4 +101,7 @@ def image_plan(node: FlatNode, sources: Sources) -> ImagePlan:
                     drawn.condition = either(drawn.condition, condition)
                 if not same:
                     streams.append(Drawn(path, dict(look), condition))
-    return ImagePlan(node, sources.flat.nodes[node.references["camera"]], streams)
+    polygons = [nodes[path] for path in dict.fromkeys(node.sources) if nodes[path].node_type.role == "polygons"]
+    lights = [nodes[path] for name, path in node.references.items() if name.startswith("lights[")]
+    kept = ([each for each in listed if each.path not in dropped] for listed in (polygons, lights))
+    return ImagePlan(node, nodes[node.references["camera"]], streams, *kept)

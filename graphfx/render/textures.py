@@ -124,7 +124,7 @@ def sample(texels, levels, first, count, u, v, slope):
     )
 
 
-def bare(texels: Any, color: bool = True) -> Texture:
+def textured(texels: Any, color: bool = True) -> Texture:
     """Return a texture from linear values (height, width), (…, 3) or (…, 4), not premultiplied, the highest row first."""
     values = np.asarray(texels, np.float32)[::-1]
     values = values[..., None] if values.ndim == 2 else values

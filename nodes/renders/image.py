@@ -1,7 +1,7 @@
-"""Image: draw streams into one picture per frame.
+"""Image: draw streams and polygons into one picture per frame.
 
-An entry of `from` is a node's id, or `{"stream": id, "blend": "over" | "add", "falloff": "linear" |
-"gaussian" | "disc", "streak": "exposed" | "solid"}`. [Sims 1990, 4]
+An entry of `from` is the id of a `polygons` node or of one that makes a stream, or `{"stream": id, "blend": "over" |
+"add", "falloff": "linear" | "gaussian" | "disc", "streak": "exposed" | "solid"}`. [Sims 1990, 4]
 
 The end of `file` says the format. A PNG has the background in it, and shows light as `display` says: `srgb` clips
 what is beyond 1, `filmic` rolls it off towards white at 10 (Narkowicz's fit of the ACES curve; middle grey
@@ -27,6 +27,8 @@ def image(
     background: Vec3 = param((0, 0, 0), type="color", min=0, doc="Colour behind the particles."),
     background_image: str = param("", type="path", doc="A picture behind the particles, cut to the frame's shape."),
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),
+    lights: list = param((), type="nodes", choices=("light",), doc="Lights on polygons; none: one from over the shoulder."),
+    ambient: Vec3 = param((0.15, 0.15, 0.15), type="color", min=0, doc="Light on polygons from all sides."),
     exposure: float = param(0.0, unit="stops", min=-30, max=30, doc="The picture's light is scaled by 2 to this power."),
     display: str = param("srgb", choices=("srgb", "filmic", "raw"), doc="How light becomes the numbers of a PNG."),
     file: str = param("{graph}.####.png", doc="Name of the files, .png or .exr; #### is the frame and {graph} the graph's name."),

@@ -1,0 +1,98 @@
+"""From nodes to polygons: meshes where they stand, their looks at a time, textures read once, and the light."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from graphfx.cook.meshes import Meshes
+from graphfx.cook.textures import check_texture, load_texture
+from graphfx.errors import GraphError, GraphfxError, LimitError, Problem
+from graphfx.geometry.mesh import Mesh
+from graphfx.graph.flat import FlatNode
+from graphfx.plan.pictures import ImagePlan, plain_value
+from graphfx.render.polygons import Light, Lighting, Polygons
+from graphfx.render.textures import Texture
+
+MAPS = ("color_map", "opacity_map")
+
+
+class PolygonMaker:
+    """Makes the polygons of pictures."""
+
+    def __init__(self, meshes: Meshes):
+        """Read nothing yet."""
+        self.meshes = meshes
+        self._textures: dict[tuple[str, bool], Texture] = {}
+
+    def prepare(self, images: Iterable[ImagePlan]) -> None:
+        """Make the meshes of pictures and look at their maps; raise GraphError with all that keeps them from being drawn."""
+        problems = [problem for node in {node.path: node for image in images for node in image.polygons}.values()
+                    for problem in self._problems(node)]
+        if problems:
+            raise GraphError(problems)
+
+    def _problems(self, node: FlatNode) -> Iterator[Problem]:
+        for name in MAPS:
+            file = str(plain_value(node.arguments[name]))
+            try:
+                if file:
+                    check_texture(file)
+            except (GraphError, LimitError) as error:
+                yield from _at(node, name, error)
+        try:
+            self._mesh(node)
+        except (GraphError, LimitError) as error:
+            yield from error.problems
+
+    def polygons(self, node: FlatNode, time: float, frame: int) -> Polygons:
+        """Return a node's polygons as they are at a time [s]."""
+        given = {name: plain_value(value, time, frame) for name, value in node.arguments.items()}
+        self._mesh(node)
+        mesh = self.meshes.mesh(node.references["geometry"], time, frame)
+        return Polygons(
+            mesh.vertices, mesh.triangles, mesh.vertex_normals() if given["shading"] == "smooth" else None, mesh.coordinates,
+            given["color"], float(given["opacity"]), str(given["shading"]), self._texture(node, "color_map"),
+            self._texture(node, "opacity_map"), bool(given["double_sided"]),
+        )
+
+    def _mesh(self, node: FlatNode) -> None:
+        """Make the mesh of a node; raise GraphError for one that cannot be drawn so."""
+        maps = [name for name in MAPS if plain_value(node.arguments[name])]
+
+        def check(mesh: Mesh) -> None:
+            if not len(mesh.triangles):
+                raise GraphError(Problem(f"'{node.path}' draws its triangles, and it has none"))
+            if maps and mesh.coordinates is None:
+                raise GraphError(Problem(f"'{node.path}' puts a {maps[0]} on it, and it has no coordinates that say where; take "
+                                         "a shape, or a file that has them (vt in OBJ)"))
+
+        self.meshes.check(node.references["geometry"], check)
+
+    def _texture(self, node: FlatNode, name: str) -> Texture | None:
+        """Return one of a node's maps, or None where it has none; it is read once."""
+        file = str(plain_value(node.arguments[name]))
+        if not file:
+            return None
+        key = file, name == "color_map"
+        if key not in self._textures:
+            try:
+                self._textures[key] = load_texture(*key)
+            except (GraphError, LimitError) as error:
+                raise type(error)(_at(node, name, error)) from error.__cause__
+        return self._textures[key]
+
+
+def _at(node: FlatNode, name: str, error: GraphfxError) -> list[Problem]:
+    """Return problems at a parameter of a node."""
+    value = node.arguments[name]
+    return [replace(problem, location=value.location, path=value.path) for problem in error.problems]
+
+
+def lighting_of(image: ImagePlan, time: float, frame: int) -> Lighting:
+    """Return the light of a picture at a time [s]."""
+    lights = [
+        Light(plain_value(node.arguments["direction"], time, frame), plain_value(node.arguments["color"], time, frame))
+        for node in image.lights
+    ]
+    return Lighting(lights, image.value("ambient", time, frame))

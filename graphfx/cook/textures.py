@@ -1,0 +1,85 @@
+"""Read pictures as textures, by Pillow.
+
+Colours are sRGB and become linear [IEC 61966-2-1]; opacities are as they stand. Pictures of 16 bits keep them
+where they are grey; Pillow reads others with 8.
+"""
+
+from __future__ import annotations
+
+import os
+import warnings
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from graphfx.errors import GraphError, LimitError, Problem
+from graphfx.render.textures import MOST_TEXELS, Texture, textured
+
+DEEP = ("I;16", "I;16L", "I;16B", "I;16N", "I")
+"""Pillow's modes of grey pictures with more than 8 bits."""
+
+
+def check_texture(file: str) -> None:
+    """Raise GraphError for a file that is no picture, LimitError for one that is too large; only its beginning is read."""
+    with _opened(file) as picture:
+        width, height = picture.size
+    if width * height > MOST_TEXELS:
+        raise LimitError(Problem(f"the picture {Path(file).name} has {width} x {height} pixels, {width * height:,}; the most of "
+                                 f"a texture is {MOST_TEXELS:,}; make it smaller"))
+
+
+def load_texture(file: str, color: bool) -> Texture:
+    """Return a picture as a texture of colours, or of opacities; raise as `check_texture` does, and for a damaged one."""
+    check_texture(file)
+    with _opened(file) as picture:
+        try:
+            return color_texture(picture) if color else _opacity_texture(picture)
+        except (OSError, ValueError, SyntaxError) as error:
+            raise _unreadable(file, error) from error
+
+
+def color_texture(picture: Any) -> Texture:
+    """Return a Pillow picture as linear colours."""
+    if picture.mode in DEEP:
+        return textured(_linear(_deep(picture))[..., None].repeat(3, axis=2))
+    values = np.asarray(picture.convert("RGBA" if picture.has_transparency_data else "RGB"))
+    found = _linear(np.arange(256) / 255).astype(np.float32)[values[..., :3]]
+    if values.shape[2] == 4:
+        found = np.concatenate([found, values[..., 3:] / np.float32(255)], axis=2)
+    return textured(found)
+
+
+def _opacity_texture(picture: Any) -> Texture:
+    """Return a picture as opacities: its alpha, or its lightness where it has none."""
+    if picture.mode in DEEP:
+        return textured(_deep(picture), color=False)
+    grey = picture.convert("RGBA").getchannel("A") if picture.has_transparency_data else picture.convert("L")
+    return textured(np.asarray(grey) / np.float32(255), color=False)
+
+
+def _opened(file: str) -> Any:
+    from PIL import Image
+
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+            return Image.open(os.fspath(file))
+    except Image.DecompressionBombError as error:
+        raise LimitError(Problem(f"the picture {Path(file).name} is too large: {error}")) from error
+    except (OSError, ValueError, SyntaxError) as error:
+        raise _unreadable(file, error) from error
+
+
+def _unreadable(file: str, error: Exception) -> GraphError:
+    told = "it is no picture that is known" if "cannot identify" in str(error) else str(error)
+    return GraphError(Problem(f"the picture {Path(file).name} cannot be read: {told}; give a PNG, JPEG, TIFF or another that "
+                              "Pillow reads"))
+
+
+def _deep(picture: Any) -> np.ndarray:
+    return np.asarray(picture).astype(np.float32).clip(0, 65535) / np.float32(65535)
+
+
+def _linear(value: np.ndarray) -> np.ndarray:
+    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
