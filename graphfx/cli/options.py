@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -46,6 +47,23 @@ threads: Callable[[Any], Any] = click.option(
     "--threads", type=click.IntRange(1, 256), metavar="N", help="Threads to use; all processors if not given.")
 
 
+class Bytes(click.ParamType):
+    """A number of bytes, such as 500MB, 1.5G or 123456; a K is 1000 bytes, a Ki 1024."""
+
+    name = "bytes"
+    _SHAPE = re.compile(r"([0-9]*\.?[0-9]+)\s*([kmgt]?)(i?)b?", re.IGNORECASE)
+
+    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> int:
+        """Return the number."""
+        if isinstance(value, int):
+            return value
+        found = self._SHAPE.fullmatch(value.strip())
+        if found is None or float(found[1]) == 0:
+            self.fail(f"'{value}' is no size; write 500MB, 1.5G or a number of bytes", param, context)
+        power = " kmgt".index(found[2].lower() or " ")
+        return int(float(found[1]) * (1024 if found[3] else 1000) ** power)
+
+
 def _keep_limit(context: click.Context, parameter: click.Parameter, given: int | None) -> None:
     """Put a limit that is given among the command's `limits`, by its name there."""
     limits = context.params.setdefault("limits", {})
@@ -55,8 +73,11 @@ def _keep_limit(context: click.Context, parameter: click.Parameter, given: int |
 
 def limits(command: Any) -> Any:
     """Give a command the options that raise or lower limits; it gets `limits`, those that were stated."""
-    shared: dict[str, Any] = {"type": click.IntRange(1), "metavar": "N", "expose_value": False, "callback": _keep_limit}
-    for option in (click.option("--limit-pixels", help="Pixels of a picture, at most.", **shared),
-                   click.option("--limit-particles", help="Particles of an emitter alive at once, at most.", **shared)):
+    shared: dict[str, Any] = {"expose_value": False, "callback": _keep_limit}
+    number: dict[str, Any] = {"type": click.IntRange(1), "metavar": "N", **shared}
+    for option in (click.option("--limit-disk", type=Bytes(), metavar="SIZE", **shared,
+                                help="What all pictures may take on the disk, such as 500MB; what is free there, if not given."),
+                   click.option("--limit-pixels", help="Pixels of a picture, at most.", **number),
+                   click.option("--limit-particles", help="Particles of an emitter alive at once, at most.", **number)):
         command = option(command)
     return command

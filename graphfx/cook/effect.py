@@ -21,7 +21,7 @@ from graphfx.cook.cameras import check_cameras
 from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
-from graphfx.cook.limits import CookLimits, check_limits
+from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer, attributes_of
@@ -80,6 +80,7 @@ class Effect:
         """
         wanted = sorted(set(frames)) if frames is not None else self.frames
         check_files(self.plan, Path(out), wanted)
+        check_disk(self.plan, Path(out), wanted, limits or CookLimits())
         written: list[Path] = []
         with closing(self._cooked(Path(out), wanted, threads or available_threads(), limits)) as cooked:
             for made in cooked:

@@ -1,14 +1,21 @@
-"""Refuse, before any work, what would not fit: too many particles, too large a picture."""
+"""Refuse, before any work, what would not fit: too many particles, too large a picture, too many files."""
 
 from __future__ import annotations
 
 import math
+import shutil
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
+from graphfx.cook.formats import bits_of, ending
 from graphfx.errors import LimitError, Problem
 from graphfx.graph.values import Keys, Literal, Value
 from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.pictures import ImagePlan, plain_value
+
+COMPRESSED = 0.25
+"""About what is left of a picture of particles when it is compressed."""
 
 
 @dataclass(frozen=True)
@@ -19,6 +26,8 @@ class CookLimits:
     """Particles alive at once, of one emitter."""
     pixels: int = 1 << 27
     """Pixels of one picture."""
+    disk: int | None = None
+    """Bytes that the pictures may take together, as far as can be told; None: what is free."""
 
 
 def check_limits(plan: Plan, limits: CookLimits) -> None:
@@ -27,6 +36,34 @@ def check_limits(plan: Plan, limits: CookLimits) -> None:
     problems += [problem for image in plan.images if (problem := _too_large(image, limits))]
     if problems:
         raise LimitError(problems)
+
+
+def check_disk(plan: Plan, out: Path, frames: Sequence[int], limits: CookLimits) -> None:
+    """Raise LimitError where the pictures of some frames would take more of the disk than is free, or than is allowed."""
+    needed = len(frames) * sum(_file_bytes(image) for image in plan.stills)
+    there = next(folder for folder in (out.absolute(), *out.absolute().parents) if folder.is_dir())
+    allowed = shutil.disk_usage(there).free if limits.disk is None else limits.disk
+    if needed <= allowed:
+        return
+    room = f"{in_bytes(allowed)} {f'are free in {out}' if limits.disk is None else 'are allowed'}"
+    raise LimitError(
+        f"{len(frames):,} frames would take about {in_bytes(needed)}, and {room}; free some space, choose another folder "
+        f"with --out, write fewer with --frames, or allow it with --limit-disk {in_bytes(needed).replace(' ', '')}"
+    )
+
+
+def _file_bytes(image: ImagePlan) -> int:
+    """Return about how many bytes a picture takes; a deep one as if it had one sample a pixel, since none can tell."""
+    width, height = image.size
+    numbers = 3 if ending(str(image.value("file"))) == ".png" and not image.value("transparent") else 4
+    return int(width * height * (numbers * bits_of(image) // 8 + 4 * len(image.channels)) * COMPRESSED)
+
+
+def in_bytes(count: float) -> str:
+    """Return a number of bytes as one says it: 640 B, 1.5 GB."""
+    units = ("B", "kB", "MB", "GB", "TB")
+    place = min(int(math.log10(max(count, 1)) / 3), len(units) - 1)
+    return f"{math.ceil(count / 1000**place * 10) / 10:g} {units[place]}"
 
 
 def _greatest(value: Value) -> float:

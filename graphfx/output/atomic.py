@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import secrets
 from collections.abc import Iterator
@@ -10,6 +11,19 @@ from pathlib import Path
 from typing import BinaryIO
 
 from graphfx.errors import OutputError, Problem
+
+_FULL = "; free some space there, or write to another disk"
+_BARRED = "; let it be written there, or choose another folder"
+WHAT_TO_DO = {
+    errno.ENOSPC: _FULL,
+    getattr(errno, "EDQUOT", errno.ENOSPC): _FULL,
+    errno.EFBIG: "; no file may be so large there: choose another folder, or write smaller pictures",
+    errno.EACCES: _BARRED,
+    errno.EPERM: _BARRED,
+    errno.EROFS: _BARRED,
+    errno.ENAMETOOLONG: "; give it a shorter name",
+}
+"""What to do, by what the system says."""
 
 
 def make_folder(file: Path) -> None:
@@ -34,7 +48,8 @@ def whole_path(path: str | os.PathLike[str]) -> Iterator[Path]:
         os.replace(temporary, target)
         _keep_rename(target.parent)
     except OSError as error:
-        raise OutputError(Problem(f"cannot write {target}: {error.strerror or error}")) from error
+        what_to_do = WHAT_TO_DO.get(error.errno or 0, "")
+        raise OutputError(Problem(f"cannot write {target}: {error.strerror or error}{what_to_do}")) from error
     finally:
         with suppress(OSError):
             temporary.unlink()

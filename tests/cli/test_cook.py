@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import errno
 import json
-import os
 from hashlib import sha256
 from pathlib import Path
 
 import pytest
 from PIL import Image
-
-from graphfx.output import atomic
 
 NAMES = [f"fountain.{number:04}.png" for number in range(1, 7)]
 
@@ -123,24 +119,6 @@ def test_output_folder_in_the_way(invoke, folder: Path) -> None:
     below = str(Path("fountain.json", "frames"))
     assert invoke("cook", "fountain.json", "--out", below) == (
         3, "", f"nothing can be written in {below}: a file is in its way; choose another folder with --out\n")
-
-
-def test_full_disk_leaves_whole_files(invoke, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """When the disk is full at the third frame, two whole frames are there, and nothing else."""
-    fsync, written = os.fsync, []
-
-    def full_at_third(handle: int) -> None:
-        written.append(handle)
-        if len(written) == 3:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        fsync(handle)
-
-    monkeypatch.setattr(atomic, "_keep_rename", lambda _: None)
-    monkeypatch.setattr(os, "fsync", full_at_third)
-    code, out, err = invoke("cook", "fountain.json", "--out", "made")
-    assert (code, out) == (3, "")
-    assert err.splitlines()[-1] == f"cannot write {Path('made', NAMES[2])}: No space left on device"
-    assert files_in(folder / "made") == NAMES[:2]
 
 
 BRANCHING = '''"""Push: away from the ground."""

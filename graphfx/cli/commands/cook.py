@@ -7,7 +7,9 @@ import shlex
 import sys
 import tempfile
 import time
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,11 +53,8 @@ def command(context: click.Context, graph: str, frames: str | None, out: str | N
     if dry_run:
         cook.tell()
         return
-    try:
+    with cook.telling(context, ["cook", graph, "--out", str(cook.out)]):
         cook.run()
-    except KeyboardInterrupt:
-        cook.tell_how_to_go_on(["graphfx", "cook", graph, "--out", str(cook.out), *typed(context)])
-        context.exit(EXIT_INTERRUPTED)
 
 
 def typed(context: click.Context) -> list[str]:
@@ -97,14 +96,16 @@ class Cook:
     done: list[int] = field(default_factory=list)
     dropped: int = 0
     restless: int = 0
+    begun: bool = False
 
     def check(self) -> None:
         """Refuse what would pass a limit, or could not be written, before even the folder is made."""
         from graphfx.cook.files import check_files
-        from graphfx.cook.limits import check_limits
+        from graphfx.cook.limits import check_disk, check_limits
 
         check_limits(self.effect.plan, self.limits)
         check_files(self.effect.plan, self.out, self.frames)
+        check_disk(self.effect.plan, self.out, self.frames, self.limits)
 
     def run(self) -> None:
         """Cook all frames; say what was made."""
@@ -113,6 +114,7 @@ class Cook:
 
         self.check()
         ready(self.out)
+        self.begun = True
         started = time.monotonic()
         with progress_for(len(self.frames), terminal=sys.stderr.isatty(), quiet=self.as_json) as progress:
 
@@ -169,8 +171,23 @@ class Cook:
             last = f" to {files[-1]}" if len(files) > 1 else ""
             click.echo(f"  {image['node']}: {image['size'][0]} x {image['size'][1]}, {files[0]}{last}")
 
-    def tell_how_to_go_on(self, again: list[str]) -> None:
-        """Say what is left after Ctrl-C, and the command for it."""
+    @contextmanager
+    def telling(self, context: click.Context, again: list[str]) -> Iterator[None]:
+        """Where what is done in the block ends before its time, say what is left and how one goes on."""
+        again = ["graphfx", *again, *typed(context)]
+        try:
+            yield
+        except KeyboardInterrupt:
+            click.echo("\n  ".join(self.how_to_go_on(again)), err=True)
+            context.exit(EXIT_INTERRUPTED)
+        except OutputError as error:
+            if not self.begun:
+                raise
+            *others, last = error.problems
+            raise OutputError([*others, replace(last, notes=(*last.notes, *self.how_to_go_on(again)))]) from error
+
+    def how_to_go_on(self, again: list[str]) -> tuple[str, str]:
+        """Return what is left when a cook stops early, and the command for it."""
         from graphfx.cook.frames import frames_text
 
         movies = self.effect.plan.movies
@@ -178,8 +195,8 @@ class Cook:
         made = f"after frame {self.done[-1]}; all files in {self.out} are whole" if self.done else "before any file was written"
         if movies:
             made += f"; no movie is written, as it needs all of its {counted(len(self.frames), 'frame')}"
-        click.echo(f"stopped {made}. To {'begin again' if movies else 'go on'}:", err=True)
-        click.echo(f"  {shlex.join([*again, '--frames', frames_text(left)])}", err=True)
+        command = shlex.join([*again, "--frames", frames_text(left)])
+        return f"stopped {made}. To {'begin again' if movies else 'go on'}:", command
 
     @staticmethod
     def _print(data: dict[str, Any]) -> None:

@@ -7,9 +7,8 @@ from pathlib import Path
 
 import click
 
-from graphfx.cli.commands.cook import Cook, typed
+from graphfx.cli.commands.cook import Cook
 from graphfx.cli.options import debug, library, limits, parameters, threads
-from graphfx.errors import EXIT_INTERRUPTED
 
 SIZE = re.compile(r"(\d{1,5})(?:x(\d{1,5}))?")
 
@@ -64,11 +63,8 @@ def command(context: click.Context, graph: str, frames: str | None, out: str | N
     wanted = parse_frames(frames, effect.frames[0], effect.frames[-1]) if frames is not None else effect.frames
     cook = Cook(effect, wanted, file.parent, threads, CookLimits(**limits), as_json)
     cook.check()
-    try:
+    with cook.telling(context, ["preview", graph, "--out", str(file)]):
         if not is_placed(flat):
             cook.effect = Effect(camera_placed(shown, wanted, threads or available_threads()))
             click.echo("the graph has no image: its particles are seen by a camera that holds them all", err=True)
         cook.run()
-    except KeyboardInterrupt:
-        cook.tell_how_to_go_on(["graphfx", "preview", graph, "--out", str(file), *typed(context)])
-        context.exit(EXIT_INTERRUPTED)
