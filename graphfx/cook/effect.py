@@ -25,7 +25,7 @@ from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer, attributes_of
-from graphfx.errors import UsageError
+from graphfx.errors import OutputError, UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
@@ -110,8 +110,13 @@ class Effect:
                     warming.wait()
                 stills = {image.node.path: out / file_name(str(image.value("file")), self.flat.name, frame)
                           for image in self.plan.stills}
-                films = {image.node.path: writer.draw(stills.get(image.node.path), image, simulation, frame)
-                         for image in self.plan.images}
+                try:
+                    films = {image.node.path: writer.draw(stills.get(image.node.path), image, simulation, frame)
+                             for image in self.plan.images}
+                except OutputError:  # of samples, which are written as they come
+                    if waiting is not None:
+                        yield _finished(*waiting)
+                    raise
                 if waiting is not None:
                     yield _finished(*waiting)
                 jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path],

@@ -16,6 +16,7 @@ from graphfx.cook import limits
 from graphfx.cook.limits import in_bytes
 from graphfx.output import atomic
 
+OpenEXR = pytest.importorskip("OpenEXR")
 FREE = "free some space, choose another folder with --out, write fewer with --frames, or allow it with --limit-disk"
 
 
@@ -23,6 +24,10 @@ def whole(folder: Path) -> list[str]:
     """Return the names of the files, all of which are whole pictures."""
     files = sorted(file for file in folder.rglob("*") if file.is_file())
     for file in files:
+        if file.suffix == ".exr":
+            with OpenEXR.File(str(file)) as picture:
+                assert picture.channels()
+            continue
         with Image.open(file) as picture:
             picture.load()
     return [file.name for file in files]
@@ -34,8 +39,13 @@ def whole(folder: Path) -> list[str]:
     (errno.EROFS, "Read-only file system", "let it be written there, or choose another folder"),
     (errno.EIO, "Input/output error", ""),
 ])
-def test_disk_that_fails_at_the_fourth_frame(invoke, folder: Path, monkeypatch, number, cause, advice) -> None:
+@pytest.mark.parametrize("image", [{}, {"file": "{graph}.####.exr", "deep": True}])
+def test_disk_that_fails_at_the_fourth_frame(invoke, folder: Path, monkeypatch, number, cause, advice, image) -> None:
     """Three frames are there, whole; nothing is left of the fourth; the rest can be made by the command that is told."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["nodes"]["frames"] |= image
+    (folder / "fountain.json").write_text(json.dumps(graph))
+    end = ".exr" if image else ".png"
     keep, kept = atomic._keep_content, []
 
     def fail(file: Path) -> None:
@@ -46,14 +56,14 @@ def test_disk_that_fails_at_the_fourth_frame(invoke, folder: Path, monkeypatch, 
 
     monkeypatch.setattr(atomic, "_keep_content", fail)
     code, out, err = invoke("cook", "fountain.json", "--out", "made")
-    file = Path("made", "fountain.0004.png")
+    file = Path("made", "fountain.0004" + end)
     assert (code, out) == (3, "")
     assert err.splitlines()[-3:] == [
         f"cannot write {file}: {cause}" + (f"; {advice}" if advice else ""),
         "  stopped after frame 3; all files in made are whole. To go on:",
         "  graphfx cook fountain.json --out made --frames 4-6",
     ]
-    assert whole(folder / "made") == [f"fountain.000{frame}.png" for frame in (1, 2, 3)]
+    assert whole(folder / "made") == [f"fountain.000{frame}{end}" for frame in (1, 2, 3)]
     monkeypatch.setattr(atomic, "_keep_content", keep)
     assert invoke("cook", "fountain.json", "--out", "made", "--frames", "4-6").code == 0
     assert len(whole(folder / "made")) == 6
