@@ -41,13 +41,27 @@ def load_texture(file: str, color: bool) -> Texture:
 
 def color_texture(picture: Any) -> Texture:
     """Return a Pillow picture as linear colours."""
+    return textured(_light(picture))
+
+
+def load_light(file: str) -> np.ndarray:
+    """Return the light of a picture (height, width, 3 or 4), row 0 at the top, alpha not multiplied in."""
+    check_texture(file)
+    with _opened(file) as picture:
+        try:
+            return _light(picture)
+        except (OSError, ValueError, SyntaxError) as error:
+            raise _unreadable(file, error) from error
+
+
+def _light(picture: Any) -> np.ndarray:
     if picture.mode in DEEP:
-        return textured(_linear(_deep(picture))[..., None].repeat(3, axis=2))
+        return _linear(_deep(picture))[..., None].repeat(3, axis=2).astype(np.float32)
     values = np.asarray(picture.convert("RGBA" if picture.has_transparency_data else "RGB"))
     found = _linear(np.arange(256) / 255).astype(np.float32)[values[..., :3]]
     if values.shape[2] == 4:
         found = np.concatenate([found, values[..., 3:] / np.float32(255)], axis=2)
-    return textured(found)
+    return found
 
 
 def _opacity_texture(picture: Any) -> Texture:

@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook.backdrop import read_backdrop
 from graphfx.cook.cameras import camera_at
 from graphfx.cook.channels import columns_of, deep_adder, deep_types, draw_all
 from graphfx.cook.formats import bits_of, ending
 from graphfx.cook.movies import Movie
 from graphfx.cook.simulate import Simulation
-from graphfx.errors import OutputError, Problem
+from graphfx.errors import GraphError, GraphfxError, Problem
 from graphfx.output.atomic import make_folder
-from graphfx.output.backdrop import read_backdrop
 from graphfx.output.deep import deep_file
 from graphfx.output.display import DISPLAYS, Background, displayed, over
 from graphfx.output.exr import write_exr
@@ -110,7 +110,7 @@ def exposed(image: ImagePlan, film: Film) -> np.ndarray:
 
 
 def backgrounds_of(plan: Plan) -> dict[str, Background]:
-    """Return what is behind each image, by its path; raise OutputError, with their places, for pictures that cannot be read."""
+    """Return what is behind each image, by its path; raise GraphError, with their places, for pictures that cannot be read."""
     found: dict[str, Background] = {}
     problems = []
     for image in plan.images:
@@ -121,9 +121,9 @@ def backgrounds_of(plan: Plan) -> dict[str, Background]:
             continue
         try:
             found[image.node.path] = read_backdrop(file, image.size, (red, green, blue))
-        except OutputError as error:
+        except GraphfxError as error:
             value = image.node.arguments["background_image"]
             problems.append(Problem(error.problems[0].message, value.location, value.path))
     if problems:
-        raise OutputError(problems)
+        raise GraphError(problems)
     return found

@@ -6,11 +6,14 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from graphfx.errors import OutputError
-from graphfx.output.backdrop import covering, linear, read_backdrop
-from graphfx.output.display import srgb
+from graphfx.cook.backdrop import covering, read_backdrop
+from graphfx.errors import GraphError
 
 GREEN = (0.0, 1.0, 0.0)
+
+
+def linear(value):
+    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
 
 
 @pytest.mark.parametrize(("size", "frame", "part"), [
@@ -22,12 +25,6 @@ GREEN = (0.0, 1.0, 0.0)
 def test_part_that_fills_the_frame(size, frame, part):
     """The greatest part of the frame's shape, in the middle."""
     assert covering(size, frame) == pytest.approx(part)
-
-
-def test_light_of_srgb():
-    """The inverse of the curve that writes."""
-    light = np.linspace(0, 1, 1001)
-    np.testing.assert_allclose(linear(srgb(light)), light, atol=1e-6)
 
 
 def test_picture_of_the_frames_size_is_kept_to_the_bit(tmp_path):
@@ -78,16 +75,18 @@ def test_exr_is_light_already(tmp_path):
     np.testing.assert_array_equal(read_backdrop(str(tmp_path / "x.exr"), (1, 1), GREEN), light[..., :3])
 
 
+NO_PICTURE = "cannot be read: it is no picture that is known; give a PNG, JPEG, TIFF or another that Pillow reads"
+
+
 @pytest.mark.parametrize(("name", "data", "message"), [
-    ("x.txt", b"text", "the picture x.txt should be one of .png, .jpg, .jpeg, .webp, .tif, .tiff, .bmp, .exr"),
-    ("x.png", b"text", "the picture x.png cannot be read: cannot identify image file"),
-    ("x.png", b"", "the picture x.png cannot be read: cannot identify image file"),
+    ("x.txt", b"text", f"the picture x.txt {NO_PICTURE}"),
+    ("x.png", b"", f"the picture x.png {NO_PICTURE}"),
     ("x.exr", b"text", "the picture x.exr cannot be read: "),
 ])
 def test_what_is_no_picture(tmp_path, name, data, message):
     """A file that is none is refused, whatever is in it."""
     (tmp_path / name).write_bytes(data)
-    with pytest.raises(OutputError) as caught:
+    with pytest.raises(GraphError) as caught:
         read_backdrop(str(tmp_path / name), (4, 4), GREEN)
     assert str(caught.value).startswith(message)
 
@@ -96,5 +95,5 @@ def test_picture_cut_short(tmp_path):
     """Half a file is no picture."""
     Image.fromarray(np.random.default_rng(0).integers(0, 256, (64, 64, 3), np.uint8)).save(tmp_path / "x.png")
     (tmp_path / "x.png").write_bytes((tmp_path / "x.png").read_bytes()[:3000])
-    with pytest.raises(OutputError, match=r"the picture x\.png cannot be read: "):
+    with pytest.raises(GraphError, match=r"the picture x\.png cannot be read: "):
         read_backdrop(str(tmp_path / "x.png"), (4, 4), GREEN)

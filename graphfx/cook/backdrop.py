@@ -8,24 +8,12 @@ linear light. What is transparent in it shows the background colour.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from graphfx.errors import OutputError
+from graphfx.cook.textures import load_light
+from graphfx.errors import GraphError
 from graphfx.output import exr
-
-FORMATS = (".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".bmp", ".exr")
-MOST_PIXELS = 1 << 28
-
-
-def linear(value: np.ndarray) -> np.ndarray:
-    """Return the light of sRGB values in 0 ... 1, float32. [IEC 61966-2-1]
-
-        v / 12.92                        v <= 0.04045
-        ((v + 0.055) / 1.055)^2.4        else
-    """
-    return np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
 def covering(size: tuple[int, int], frame: tuple[int, int]) -> tuple[float, float, float, float]:
@@ -42,36 +30,28 @@ def covering(size: tuple[int, int], frame: tuple[int, int]) -> tuple[float, floa
 def read_backdrop(file: str, frame: tuple[int, int], color: tuple[float, float, float]) -> np.ndarray:
     """Return a picture fitted to a frame (width, height), linear float32 (height, width, 3), over a colour.
 
-    Raise OutputError for what is no picture.
+    Raise GraphError for what is no picture, LimitError for one that is too large.
     """
-    path = Path(file)
-    if path.suffix.lower() not in FORMATS:
-        raise OutputError(f"the picture {path.name} should be one of {', '.join(FORMATS)}")
-    if path.suffix.lower() == ".exr" and not exr.is_there():
-        raise OutputError(exr.INSTALL.replace("written", "read"))
+    return _fitted(_read_exr(file) if file.lower().endswith(".exr") else _premultiplied(load_light(file)), frame, color)
+
+
+def _premultiplied(light: np.ndarray) -> np.ndarray:
+    if light.shape[2] == 3:
+        return np.concatenate([light, np.ones_like(light[..., :1])], axis=2)
+    return np.concatenate([light[..., :3] * light[..., 3:], light[..., 3:]], axis=2)
+
+
+def _read_exr(file: str) -> np.ndarray:
+    name = Path(file).name
+    if not exr.is_there():
+        raise GraphError(exr.INSTALL.replace("written", "read"))
     try:
-        picture = exr.read_exr(path) if path.suffix.lower() == ".exr" else _decoded(path)
+        light = exr.read_exr(file)
     except Exception as error:  # a reader of hostile files may fail in any way
-        raise OutputError(f"the picture {path.name} cannot be read: {error}") from error
-    if not np.isfinite(picture).all():
-        raise OutputError(f"the picture {path.name} has numbers in it that are not finite")
-    return _fitted(picture, frame, color)
-
-
-def _decoded(path: Path) -> np.ndarray:
-    """Return a picture's light, multiplied by its alpha: float32 (height, width, 4)."""
-    from PIL import Image
-
-    with Image.open(path) as opened:
-        if opened.width * opened.height > MOST_PIXELS:
-            raise ValueError(f"it has {opened.width * opened.height:,} pixels, and the most is {MOST_PIXELS:,}")
-        numbers: Any = np.asarray(opened) if opened.mode.startswith("I;16") else np.asarray(opened.convert("RGBA"))
-    if numbers.ndim == 2:
-        light = linear(numbers / 65535.0)
-        return np.stack([light, light, light, np.ones_like(light)], axis=-1)
-    alpha = numbers[..., 3:].astype(np.float32) / np.float32(255.0)
-    table = linear(np.arange(256) / 255.0)
-    return np.concatenate([table[numbers[..., :3]] * alpha, alpha], axis=-1)
+        raise GraphError(f"the picture {name} cannot be read: {error}") from error
+    if not np.isfinite(light).all():
+        raise GraphError(f"the picture {name} has numbers in it that are not finite")
+    return light
 
 
 def _fitted(picture: np.ndarray, frame: tuple[int, int], color: tuple[float, float, float]) -> np.ndarray:
