@@ -20,6 +20,7 @@ from graphfx.render.cover import hides, show_next
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     GROUPS,
+    alpha_of,
     colored,
     fragments,
     groups_touched,
@@ -95,7 +96,7 @@ def _gather(segments, q, local, group, square, buffer):
     key, shape, t, hit = fragments(local, group, square)
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
     store(planes, 0, key)
-    store(planes, LANES, where(hit, opacity * shape, 0.0))
+    store(planes, LANES, where(hit, alpha_of(opacity, shape), 0.0))
     store(planes, 2 * LANES, red)
     store(planes, 3 * LANES, green)
     store(planes, 4 * LANES, blue)

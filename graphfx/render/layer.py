@@ -216,6 +216,12 @@ def fragments(local, group, square):
 
 
 @inner
+def alpha_of(opacity, shape):
+    """Return the alpha of fragments, negative where they add: opacity times shape, never beyond 1."""
+    return minimum(maximum(opacity * shape, -1.0), 1.0)
+
+
+@inner
 def colored(segments, q, local, key, t, square):
     """Return (opacity, red, green, blue) where s = t k1 / k(t) in perspective, s = t in orthographic."""
     values, tails = segments.values, segments.tails

@@ -48,6 +48,8 @@ from graphfx.render.weights import GREATEST_PACE, joined_total, joints_of, pace_
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
+GREATEST_OPACITY = 1e6
+"""At the centre of a small particle, before its share of a pixel; far more than is ever needed."""
 GREATEST_COLOR = 1e30
 """Colours are kept within this, so that differences and sums of them stay finite."""
 
@@ -195,11 +197,14 @@ def _write_focus(sharp, confusion, segments, at):
 
 @inner
 def _write_look(columns, i, first, last, factor, look, segments, at):
-    """Write colour and opacity of both ends; return whether any opacity is left."""
+    """Write colour and opacity of both ends; return whether any opacity is left.
+
+    The opacity of a small particle may pass 1, where its light lies between pixels; no fragment's does.
+    """
     values, tails = segments.values, segments.tails
     head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
-    opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, 1.0))
-    opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, 1.0))
+    opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, GREATEST_OPACITY))
+    opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, GREATEST_OPACITY))
     values[at, OPACITY] = opacity0
     varying = opacity0 != opacity1
     for c in range(3):

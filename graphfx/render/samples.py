@@ -27,6 +27,7 @@ from graphfx.render.layer import (
     GROUP_HEIGHT,
     TILE_HEIGHT,
     TILE_WIDTH,
+    alpha_of,
     colored,
     fragments,
     groups_touched,
@@ -135,7 +136,7 @@ def _gather(segments, q, local, group, square, inside, planes, at, width, room):
         return
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
     store(planes, 0, key)
-    store(planes, LANES, where(hit, opacity * shape, 0.0))
+    store(planes, LANES, where(hit, alpha_of(opacity, shape), 0.0))
     store(planes, 2 * LANES, red)
     store(planes, 3 * LANES, green)
     store(planes, 4 * LANES, blue)

@@ -20,6 +20,7 @@ from graphfx.render.layer import (
     GROUPS,
     TILE_HEIGHT,
     TILE_WIDTH,
+    alpha_of,
     colored,
     fragments,
     groups_touched,
@@ -115,7 +116,7 @@ def _draw(segments, q, local, group, square, scratch, cover):
         scratch.counts[group] = OVERFLOWED
     else:
         scratch.counts[group] = insert(
-            scratch.slots, base, first, count, where(hit, key, EMPTY), where(hit, opacity * shape, 0.0), red, green, blue
+            scratch.slots, base, first, count, where(hit, key, EMPTY), where(hit, alpha_of(opacity, shape), 0.0), red, green, blue
         )
     scratch.hits[group] += count_bits(bits & scratch.inside[group])
 

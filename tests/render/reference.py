@@ -168,7 +168,7 @@ def project(stream, i, head_camera, tail_camera, width, height):
     factor = evened(segment)
     if not segment.solid:
         factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)
-    segment.opacity = tuple(min(end[8] * factor, 1.0) for end in (first, last))
+    segment.opacity = tuple(end[8] * factor for end in (first, last))
     return segment
 
 
@@ -256,7 +256,7 @@ def _tile(segments, tile, left, top, columns, rows, between):
         opacity, t, hit = segment.at(x, y)
         if hit.any():
             own, colors = segment.attributes(t)
-            layers.append((np.where(hit, keys_of(segment, left, top), F(np.inf)), opacity * own, colors, hit, segment.add))
+            layers.append((np.where(hit, keys_of(segment, left, top), F(np.inf)), np.minimum(opacity * own, 1), colors, hit, segment.add))
     if not layers:
         _put_between(between, tile, np.zeros((0, 16, 8)), np.zeros((0, 16, 8)), np.zeros((0, 3, 16, 8)), np.zeros((0, 16, 8)))
         return 0

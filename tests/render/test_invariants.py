@@ -79,7 +79,8 @@ def _tied(count: int) -> list[Streaks]:
 
 @pytest.mark.parametrize("falloff", FALLOFFS)
 @pytest.mark.parametrize("streak", ["exposed", "solid"])
-def test_total_of_a_small_particle_is_even_as_it_moves(falloff, streak):
+@pytest.mark.parametrize("opacity", [0.3, 1.0])
+def test_total_of_a_small_particle_is_even_as_it_moves(falloff, streak, opacity):
     """Wherever a particle under a pixel is, and however it is streaked, its total stays within 1 %."""
     draw = np.random.default_rng(6)
     for length in (0.0, 0.3, 2.0, 7.0):
@@ -88,8 +89,8 @@ def test_total_of_a_small_particle_is_even_as_it_moves(falloff, streak):
             x, y = draw.uniform(-8, 8, 2)
             angle = draw.uniform(0, 2 * np.pi)
             tail = (x + length * np.cos(angle), y + length * np.sin(angle), 0)
-            got = total(one((x, y, 0), tail, 0.6, falloff=falloff, streak=streak, head_opacity=0.3))
-            assert got == pytest.approx(0.3 * wanted, rel=0.01)
+            got = total(one((x, y, 0), tail, 0.6, falloff=falloff, streak=streak, head_opacity=opacity))
+            assert got == pytest.approx(opacity * wanted, rel=0.01)
 
 
 @pytest.mark.parametrize("falloff", FALLOFFS)
