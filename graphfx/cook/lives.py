@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook.bends import bends_of, new_knots
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import Particles, flagged, padded, repeated
 from graphfx.cook.programs import Programs
@@ -99,8 +100,12 @@ class Lives:
         begin: np.ndarray,
         end: np.ndarray,
         begun: np.ndarray,
+        kept: bool = True,
     ) -> Ends:
-        """Run the program of one's own time from `begin` to `end`; `begun` of the frame's steps were begun before."""
+        """Run the program of one's own time from `begin` to `end`; `begun` of the frame's steps were begun before.
+
+        Hits on the way are `kept` for pictures.
+        """
         made, real, count = particles.plan.own, self.programs.real, len(rows)
         unmoved = Ends(np.zeros(count), end, begun, np.full(count, -1.0))
         if made is None:
@@ -117,8 +122,12 @@ class Lives:
         }
         for name, type_ in HIT_TYPES.items():
             by_place[f"hit.{name}"] = tuple(zeros.copy() for _ in range(3 if type_ == "vec3" else 1))
+        if "knots" in made.program.stores:
+            by_place |= new_knots(count, real)
         self.programs.run(made, particles, interval, rows, by_place=by_place)
         particles.unfinished += int(by_place["unfinished"][0][:count].sum())
+        if kept and "knots" in made.program.stores:
+            particles.bends = particles.bends.joined(bends_of(rows, interval, by_place, particles.since))
         if "fate" not in made.program.stores:
             return unmoved
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
@@ -149,6 +158,7 @@ class Lives:
 
     def _renew(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray) -> None:
         if len(rows):
+            particles.end_lives(rows, interval.start + when)
             self.nursery.renew(particles, rows, interval.start + when, interval)
             self.begin(particles, interval, rows, when)
             self.leave_trails(particles, interval, rows, when)
@@ -211,7 +221,7 @@ class Lives:
         for _ in range(MOST_TURNS):
             if not len(going):
                 break
-            ends = self._run(particles, interval, rows[going], begin[going], end[going], begun[going])
+            ends = self._run(particles, interval, rows[going], begin[going], end[going], begun[going], kept=False)
             alive[going[(ends.fate > 0) & (ends.fate != HELD)]] = False
             begin[going], begun[going] = ends.ended, ends.begun
             going = going[ends.fate == HELD]
@@ -226,14 +236,22 @@ class Lives:
         assert made is not None
         rows = np.arange(first, particles.store.count)
         kills = "fate" in made.program.stores
-        fate = padded(np.zeros(len(rows)), self.programs.real)
-        listed = rows if kills or first else None
-        self.programs.run(made, particles, interval, listed, by_place={"fate": (fate,)} if kills else None)
+        dying = flagged(particles.dying, particles.store.count)[first:]
+        placed = particles.plan.closing_at
+        listed = rows if placed is None else rows[~dying]
+        fate = padded(np.zeros(len(listed)), self.programs.real)
+        whole = None if len(listed) == particles.store.count and not kills else listed
+        self.programs.run(made, particles, interval, whole, by_place={"fate": (fate,)} if kills else None)
+        if placed is not None and dying.any():
+            ended = np.full(particles.store.count, interval.length)
+            ended[particles.dying] = particles.ended_at - interval.start
+            begin = padded(ended[rows[dying]], self.programs.real)
+            self.programs.run(placed, particles, interval, rows[dying], by_place={"begin": (begin,)})
         if kills:
-            ended = rows[(fate[: len(rows)] > 0) & ~flagged(particles.dying, particles.store.count)[first:]]
-            when = np.full(len(ended), interval.length)
-            self._die(particles, interval, ended, when)
-            particles.note_deaths(ended, interval.start + when)
+            killed = listed[(fate[: len(listed)] > 0) & ~flagged(particles.dying, particles.store.count)[listed]]
+            when = np.full(len(killed), interval.length)
+            self._die(particles, interval, killed, when)
+            particles.note_deaths(killed, interval.start + when)
 
 
 def _kept(hit: dict[str, tuple[np.ndarray, ...]], chosen: np.ndarray) -> dict[str, tuple[np.ndarray, ...]]:

@@ -95,7 +95,7 @@ class Nursery:
             if f"number {name}" in made.program.loads and f"number {name}" not in given:
                 by_place[f"number {name}"] = (padded(self._numbers(particles, name, by_place, interval, len(rows)), real),)
         self.programs.run(made, particles, interval, rows, by_place=by_place)
-        particles.put_tails(rows)
+        particles.put_places(rows)
         particles.note_births(rows, times)
 
     def _numbers(self, particles: Particles, name: str, by_place: dict[str, Any], interval: Interval, count: int) -> np.ndarray:

@@ -29,11 +29,35 @@ class Arrivals:
 
 
 @dataclass
+class Bends:
+    """Hits on the ways of particles: `rows`, `times` [s] and `places` (3, n). A row's own are in order of time."""
+
+    rows: np.ndarray = field(default_factory=lambda: NO_ROWS)
+    times: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    places: np.ndarray = field(default_factory=lambda: np.zeros((3, 0)))
+
+    def chosen(self, which: np.ndarray, rows: np.ndarray | None = None) -> Bends:
+        """Return some of them, `rows` telling the new row of each old one."""
+        kept = self.rows[which]
+        return Bends(kept if rows is None else rows[kept], self.times[which], self.places[:, which])
+
+    def joined(self, others: Bends) -> Bends:
+        """Return these and others after them."""
+        return Bends(
+            np.concatenate([self.rows, others.rows]),
+            np.concatenate([self.times, others.times]),
+            np.concatenate([self.places, others.places], axis=1),
+        )
+
+
+@dataclass
 class Particles:
     """One source's particles.
 
     `dying` are the rows whose life ended in the interval before the frame; they are removed as the next begins.
     `born` are the rows that began a life in it, at the times `born_at`; `ended_at` says when the dying did.
+    Pictures look back to `since` [s]: `bends` are hits after that, and `past` holds those whose lives ended after it and
+    that are gone, or live again; there, all are dying.
     """
 
     plan: EmitterPlan
@@ -47,6 +71,9 @@ class Particles:
     arrivals: list[Arrivals] = field(default_factory=list)
     seeds: dict[str, np.ndarray] = field(default_factory=dict)
     """The places of the seeds of clusters, by name."""
+    since: float = -np.inf
+    bends: Bends = field(default_factory=Bends)
+    past: Particles | None = None
 
     @property
     def alive(self) -> int:
@@ -83,13 +110,70 @@ class Particles:
             return self.store.column("birth")[0][rows] + self.store.column("life")[0][rows]
         return self.store.column("birth")[0][rows] + float(self.value("life"))
 
-    def remove_dead(self) -> None:
-        """Remove the particles that died before the frame, and forget who was born before it."""
-        if len(self.dying):
-            self.store.kill(self.dying)
-            self.store.compact()
+    def begin_frame(self, since: float) -> None:
+        """Remove the particles that died before the frame, and hand on the places that pictures need since `since` [s]."""
+        self.since = since
+        if self.past is not None:
+            self.past._forget(self.past.ended_at <= since)
+            recent = self.ended_at > since
+            self._lay_aside(self.dying[recent], self.ended_at[recent])
+            self.past._hand_on()
+        self._remove(self.dying)
+        self.bends = self.bends.chosen(self.bends.times > since)
         self.dying, self.ended_at = NO_ROWS, np.zeros(0)
         self.born, self.born_at = NO_ROWS, np.zeros(0)
+        self._hand_on()
+
+    def _remove(self, dead: np.ndarray) -> np.ndarray:
+        """Remove rows; return the new row of each old one."""
+        if not len(dead):
+            return np.arange(self.store.count)
+        alive = ~flagged(dead, self.store.count)
+        rows = np.cumsum(alive) - 1
+        self.store.kill(dead)
+        self.store.compact()
+        self.bends = self.bends.chosen(alive[self.bends.rows], rows)
+        return rows
+
+    def _forget(self, which: np.ndarray) -> None:
+        """Remove some of those that are past, where all are dying."""
+        if not which.any():
+            return
+        kept = ~which[self.born]
+        rows = self._remove(np.flatnonzero(which))
+        self.born, self.born_at = rows[self.born[kept]], self.born_at[kept]
+        self.dying, self.ended_at = np.arange(self.store.count), self.ended_at[~which]
+
+    def _hand_on(self) -> None:
+        """Let the columns of instants take over what was found a frame before, the earliest first."""
+        for instant in reversed(self.plan.exposure.instants):
+            if instant.source:
+                for target, source in zip(self.store.arrays(instant.column), self.store.arrays(instant.source), strict=True):
+                    target[:] = source
+
+    def end_lives(self, rows: np.ndarray, times: np.ndarray) -> None:
+        """Keep what pictures show of rows whose lives end at `times` [s] and that live again."""
+        if self.past is not None:
+            recent = times > self.since
+            self._lay_aside(rows[recent], times[recent])
+        self.bends = self.bends.chosen(~flagged(rows, self.store.count)[self.bends.rows])
+
+    def _lay_aside(self, rows: np.ndarray, times: np.ndarray) -> None:
+        """Put copies of rows whose lives ended at `times` [s] among those that are past."""
+        past = self.past
+        if past is None or not len(rows):
+            return
+        added = past.store.allocate(len(rows))
+        for name in self.store.columns:
+            for target, source in zip(past.store.arrays(name), self.store.arrays(name), strict=True):
+                target[added] = source[rows]
+        there = np.full(self.store.count, -1, np.int64)
+        there[rows] = np.arange(added.start, added.stop)
+        past.bends = past.bends.joined(self.bends.chosen(there[self.bends.rows] >= 0, there))
+        late = there[self.born] >= 0
+        past.born = np.concatenate([past.born, there[self.born[late]]])
+        past.born_at = np.concatenate([past.born_at, self.born_at[late]])
+        past.dying, past.ended_at = np.arange(past.store.count), np.concatenate([past.ended_at, times])
 
     def note_births(self, rows: np.ndarray, times: np.ndarray) -> None:
         """Note which rows begin a life within the interval, and when; the last beginning counts."""
@@ -105,11 +189,13 @@ class Particles:
         order = np.argsort(rows, kind="stable")
         self.dying, self.ended_at = rows[order], times[order]
 
-    def put_tails(self, rows: np.ndarray) -> None:
-        """Put the tails of rows where they are."""
-        if "tail" in self.store.columns and len(rows):
-            for tail, position in zip(self.store.arrays("tail"), self.store.arrays("position"), strict=True):
-                tail[rows] = position[rows]
+    def put_places(self, rows: np.ndarray, all_instants: bool = True) -> None:
+        """Put the places of rows at all instants, or at those within the frame, where they are."""
+        if not len(rows):
+            return
+        for instant in self.plan.exposure.instants if all_instants else self.plan.exposure.within:
+            for place, position in zip(self.store.arrays(instant.column), self.store.arrays("position"), strict=True):
+                place[rows] = position[rows]
 
 
 def flagged(rows: np.ndarray, count: int) -> np.ndarray:

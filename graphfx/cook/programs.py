@@ -64,17 +64,18 @@ class Programs:
             arrays,
             listed,
             excluded,
-            self.uniforms(made, interval),
+            self.uniforms(made, particles, interval),
             by_place,
             interval.start,
         )
         return self.executor.run(program, job)
 
-    def opening(self, interval: Interval) -> float:
-        """Return when the longest shutter opens, from the start of an interval [s]."""
-        return max(interval.length - self.plan.shutter / self.plan.flat.time.fps, 0.0)
+    def instants(self, particles: Particles, interval: Interval) -> dict[str, float]:
+        """Return the instants at which the programs of a frame find places, from the start of an interval [s]."""
+        fps = self.plan.flat.time.fps
+        return {each.time: max(interval.length - each.back / fps, 0.0) for each in particles.plan.exposure.within}
 
-    def uniforms(self, made: FrameProgram, interval: Interval) -> dict[int, Any]:
+    def uniforms(self, made: FrameProgram, particles: Particles, interval: Interval) -> dict[int, Any]:
         """Return the values of a program's uniforms over an interval."""
         substeps = self.plan.flat.time.substeps
         length = interval.length / substeps
@@ -82,7 +83,7 @@ class Programs:
         named = {
             "length": length,
             "half": length / 2,
-            "opening": self.opening(interval),
+            **self.instants(particles, interval),
             "frame start": interval.start,
             "frame end": interval.length,
             "frame": interval.frame,

@@ -15,7 +15,7 @@ from graphfx.cook.executor import Executor
 from graphfx.cook.lives import Lives
 from graphfx.cook.meshes import Meshes
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import NO_ROWS, Particles, flagged
+from graphfx.cook.particles import NO_ROWS, Particles, flagged, padded
 from graphfx.cook.polygons import PolygonMaker
 from graphfx.cook.programs import Programs
 from graphfx.cook.spawns import Spawns
@@ -43,6 +43,9 @@ class Simulation:
             columns = {name: Column(type_) for name, type_ in emitter.attributes.columns.items()}
             store = ProcessorSet(columns, plan.precision, limit_particles, threads)
             self.particles[path] = Particles(emitter, store, self._births(emitter, meshes))
+            if emitter.exposure.reach > 0:
+                past = ProcessorSet(columns, plan.precision, None, threads)
+                self.particles[path].past = Particles(emitter, past, None)
         self.interval = Interval(self.clock.start, self.clock.start, self.clock.beginning)
         """The time that was simulated last."""
         self.nursery = Nursery(self.programs)
@@ -110,7 +113,7 @@ class Simulation:
     def _advance(self, particles: Particles, interval: Interval) -> None:
         """Carry one source's particles over an interval."""
         store, plan = particles.store, particles.plan
-        particles.remove_dead()
+        particles.begin_frame(interval.end - plan.exposure.reach / self.clock.fps)
         before = store.count
         times = particles.births.within(interval) if particles.births is not None else np.zeros(0)
         born = self.nursery.bear(particles, times, interval)
@@ -130,17 +133,24 @@ class Simulation:
         either = flagged(dying, before)
         either[rejected] = True
         old = np.flatnonzero(either)
-        particles.put_tails(old)
+        particles.put_places(old, all_instants=False)
         rows = np.concatenate([old, born, arrived])
         self.lives.go_on(particles, interval, rows, np.concatenate([np.zeros(len(old)), begin, arrived_begin]))
 
     def _close(self, particles: Particles, interval: Interval, first: int) -> None:
-        """Do what is done with rows from `first` on as the frame ends: tails, what is set, who is killed."""
+        """Do what is done with rows from `first` on as the frame ends: places at instants, what is set, who is killed."""
         plan = particles.plan
-        if plan.tails is not None:
-            rows = np.arange(first, particles.store.count)
-            if plan.main is None or "tail" not in plan.main.program.stores:
-                particles.put_tails(rows)
-            self.programs.run(plan.tails, particles, interval, rows if first else None)
+        rows = np.arange(first, particles.store.count)
+        born = np.full(particles.store.count, -np.inf)
+        born[particles.born] = particles.born_at - interval.start
+        instants = self.programs.instants(particles, interval)
+        for instant in plan.exposure.within if plan.places else []:
+            at_instant, at_birth = plan.places[instant.column]
+            if plan.main is None or instant.column not in plan.main.program.stores:
+                particles.put_places(rows, all_instants=False)
+            self.programs.run(at_instant, particles, interval, rows if first else None)
+            late = rows[born[rows] > instants[instant.time]]
+            begin = padded(born[late], self.programs.real)
+            self.programs.run(at_birth, particles, interval, late, by_place={"begin": (begin,)})
         if plan.closing is not None:
             self.lives.close(particles, interval, first)

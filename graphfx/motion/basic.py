@@ -120,6 +120,18 @@ def capture(tail: Any, first: Any, last: Any, begin: Any, end: Any, opening: Any
     return where((begin <= opening) & (opening <= end), first + (last - first) * share, tail)
 
 
+@MOTION.function("float vec3 float float float vec3", "float vec3")
+def kept_knot(then: Any, there: Any, count: Any, number: Any, time: Any, place: Any) -> Any:
+    """(time, place) if count = number, else what is kept."""
+    return where(count == number, time, then), where(count == number, place, there)
+
+
+@MOTION.function("float vec3 float float float vec3", "float vec3")
+def kept_last_knot(then: Any, there: Any, count: Any, number: Any, time: Any, place: Any) -> Any:
+    """(time, place) if count >= number, else what is kept."""
+    return where(count >= number, time, then), where(count >= number, place, there)
+
+
 @MOTION.function("vec3 vec3 float", "vec3")
 def advance_half(value: Any, rate: Any, dt: Any) -> Any:
     """value + rate dt / 2."""

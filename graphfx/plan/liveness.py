@@ -10,6 +10,7 @@ from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
 from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, moment_of, names_in
 from graphfx.plan.rates import lane_type
+from graphfx.plan.shutter import Exposure
 
 
 @dataclass
@@ -91,7 +92,7 @@ class Reading:
         return [name for name in node.gives if name in self.readers or (at_birth and f"birth.{name}" in self.readers)]
 
 
-def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> Attributes:
+def find_attributes(reading: Reading, exposure: Exposure, prune: bool = True) -> Attributes:
     """Decide what is stored; without `prune`, all attributes are."""
     holder, readers = reading.holder, reading.readers
     if not prune:
@@ -114,7 +115,7 @@ def find_attributes(reading: Reading, motion_blur: bool, prune: bool = True) -> 
             found.constants[name] = holder.value(name)
         _note_birth(found, holder, readers, name)
     _add_tails(found, holder, readers)
-    _add_hidden(found, reading, motion_blur)
+    _add_hidden(found, reading, exposure)
     return found
 
 
@@ -138,7 +139,7 @@ def _add_tails(found: Attributes, holder: Holder, readers: dict[str, str]) -> No
                 found.store(name, lane, f"set by {node.path}, for the renderer", lane)
 
 
-def _add_hidden(found: Attributes, reading: Reading, motion_blur: bool) -> None:
+def _add_hidden(found: Attributes, reading: Reading, exposure: Exposure) -> None:
     holder, readers = reading.holder, reading.readers
     life = holder.value("life")
     differs = holder.varies("life")
@@ -149,14 +150,16 @@ def _add_hidden(found: Attributes, reading: Reading, motion_blur: bool) -> None:
         found.constants["life"] = life
     if mortal or {"age", "normalized_age"} & readers.keys():
         found.store("birth", "time", "for age and death")
+    elif exposure.deep:
+        found.store("birth", "time", "since when it is seen, for motion blur")
     needs_id = _needs_id(reading)
     if needs_id:
         found.store("id", "id", needs_id)
     for name in holder.clusters:
         if name in readers or (holder.of_role("recycle") and reads_at_birth(holder, found, name)):
             found.store(name, "float", f"read by {readers.get(name, 'recycle')}", "float")
-    if motion_blur and "position" in found.columns and "position" in holder.written:
-        found.store("tail", "vec3", "where the shutter opened, for motion blur")
+    for instant in exposure.instants if "position" in found.columns and "position" in holder.written else ():
+        found.store(instant.column, "vec3", instant.reason)
     if holder.of_role("surface"):
         found.store("resting", "mask", "who has come to rest on a surface")
     for spawn in holder.spawns:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from graphfx.graph.flat import FlatGraph, FlatNode
@@ -11,6 +10,7 @@ from graphfx.graph.names import OUTPUTS, PICTURES
 from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
 from graphfx.plan.birth import BirthWriter
+from graphfx.plan.ends import EndWriter
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
 from graphfx.plan.liveness import Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
@@ -19,6 +19,7 @@ from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
+from graphfx.plan.shutter import Exposure, exposure_of
 from graphfx.plan.sources import Sources
 from graphfx.plan.spawning import SpawnPlan, SpawnWriter
 from graphfx.plan.steps import FrameWriter
@@ -31,8 +32,8 @@ class EmitterPlan:
     """One source of particles: their columns, their operators, their programs.
 
     `births` are the programs of all who make particles of it, its own first. `main` and `own` are None where nothing
-    happens in a step; `closing` is what is set as a frame ends, `tails` where it puts tails as the shutter opens,
-    `at_death` what is set then and who begins another life; `seeds` finds positions alone, for clusters. `method` is
+    happens in a step; `closing` is what is set as a frame ends, `closing_at` as a life ends within it. `places` are where
+    that puts particles at instants before, by column: the old ones, and those born after it. `at_death` is what is set then and who begins another life; `seeds` finds positions alone, for clusters. `method` is
     how motion is computed, `reason` why. `constants` are the attributes that are one for all.
     """
 
@@ -43,10 +44,12 @@ class EmitterPlan:
     reason: str
     constants: dict[str, Any]
     births: dict[str, FrameProgram]
+    exposure: Exposure
     main: FrameProgram | None
     own: FrameProgram | None
     closing: FrameProgram | None
-    tails: FrameProgram | None
+    closing_at: FrameProgram | None
+    places: dict[str, tuple[FrameProgram, FrameProgram]]
     at_death: FrameProgram | None
     seeds: FrameProgram | None
     spawns: list[SpawnPlan]
@@ -70,7 +73,8 @@ class EmitterPlan:
     def made_programs(self) -> list[FrameProgram]:
         """Return all programs, births first."""
         spawning = [made for spawn in self.spawns for made in (spawn.rate, spawn.offspring)]
-        others = (self.seeds, self.main, self.own, self.tails, self.closing, self.at_death, *spawning)
+        placing = [made for both in self.places.values() for made in both]
+        others = (self.seeds, self.main, self.own, *placing, self.closing, self.closing_at, self.at_death, *spawning)
         return [made for made in (*self.births.values(), *others) if made is not None]
 
     @property
@@ -105,11 +109,6 @@ class Plan:
         """Return 32 or 64: the bits of a real."""
         return self.flat.time.precision
 
-    @cached_property
-    def shutter(self) -> float:
-        """Return the longest time that a shutter is open [frames]: tails are taken when it opens."""
-        return max((image.tail_shutter for image in self.images), default=0.0)
-
 
 def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     """Plan a flattened graph.
@@ -139,10 +138,11 @@ class _Planner:
         """What is stored of each source, as far as it is known."""
         self.attributes = self._all_attributes()
 
-    def _drawn(self, path: str) -> tuple[list[Drawn], float]:
-        """Return the streams of images that draw a source's particles, and the longest shutter."""
+    def _drawn(self, path: str) -> tuple[list[Drawn], Exposure]:
+        """Return the streams of images that draw a source's particles, and what is kept for their shutters."""
         drawn = [(image, each) for image in self.images for each in image.streams if each.path == path]
-        return [each for _, each in drawn], max((image.tail_shutter for image, _ in drawn), default=0.0)
+        windows = [window for image, _ in drawn for window in image.windows(self.flat.time)]
+        return [each for _, each in drawn], exposure_of(windows)
 
     def _all_attributes(self) -> dict[str, Attributes]:
         """Find what is stored of each source: all that its children read, which grows until no child needs more."""
@@ -150,8 +150,7 @@ class _Planner:
             known = dict(self.stored)
             found = {}
             for path in reversed(self.holders):
-                drawn, shutter = self._drawn(path)
-                found[path] = self._attributes(self.holders[path], drawn, shutter > 0)
+                found[path] = self._attributes(self.holders[path], *self._drawn(path))
             if self.stored == known:
                 return found
 
@@ -159,8 +158,10 @@ class _Planner:
         """Return the plan of one source."""
         flat, holder = self.flat, self.holders[path]
         seed, precision, substeps = flat.seed, flat.time.precision, flat.time.substeps
-        drawn, shutter = self._drawn(path)
+        drawn, exposure = self._drawn(path)
         attributes = self.attributes[path]
+        if not all(instant.column in attributes.columns for instant in exposure.instants):
+            exposure = replace(exposure, instants=())
         movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
         method, reason = choose_method(movers, flat, has_velocity)
@@ -168,14 +169,14 @@ class _Planner:
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity
-        blurred = shutter > 0 and "tail" in attributes.columns
-        opening = min(int((1 - shutter) * substeps), substeps - 1) if blurred and moves else -1
+        ends = EndWriter(writer)
+        put = exposure.within if ends.moves else []
         births = BirthWriter(holder, attributes, seed, precision)
         nearest = any(each.by == "nearest" and self._counted(holder, attributes, name) for name, each in holder.clusters.items())
         spawning = SpawnWriter(path, attributes, constants.find, seed, precision)
         for each in drawn:
             if each.condition is not None:
-                each.selection = writer.selection(each.condition)
+                each.selection = ends.selection(each.condition)
         return EmitterPlan(
             holder,
             attributes,
@@ -184,11 +185,13 @@ class _Planner:
             reason,
             {name: constants.find(name).value for name in attributes.constants},
             {maker.path: births.write(maker) for maker in (holder.maker, *holder.adders)},
-            writer.main(opening) if moves or writer.acts else None,
-            writer.own(opening >= 0) if moves or writer.acts else None,
-            writer.closing(),
-            writer.closing(opening=True) if blurred else None,
-            writer.at_death(),
+            exposure,
+            writer.main(exposure.within if moves else []) if moves or writer.acts else None,
+            writer.own(exposure.within if moves else []) if moves or writer.acts else None,
+            ends.closing(),
+            ends.closing(own=True) if put else None,
+            {instant.column: (ends.place(instant), ends.place(instant, own=True)) for instant in put},
+            ends.at_death(),
             births.write(holder.maker, ["position"]) if nearest else None,
             [spawning.plan(node, self._home(node), [each.path for each in holder.of_role("surface")]) for node in holder.spawns],
         )
@@ -202,7 +205,7 @@ class _Planner:
     def _home(spawn: FlatNode) -> str:
         return spawn.references.get("into", spawn.path)
 
-    def _attributes(self, holder: Holder, drawn: list[Drawn], motion_blur: bool) -> Attributes:
+    def _attributes(self, holder: Holder, drawn: list[Drawn], exposure: Exposure) -> Attributes:
         """Find what is stored, and what that asks of the parents."""
         reading = Reading(holder)
         for image in self.images:
@@ -217,7 +220,7 @@ class _Planner:
             stored = self.stored.get(home.path, [])
             reading.note(reads_of_spawn(home, maker, home.parents_of(maker), stored), spawn.path)
         reading.operators()
-        found = find_attributes(reading, motion_blur, self.prune)
+        found = find_attributes(reading, exposure, self.prune)
         self.stored[holder.path] = [name for name in found.types if name in holder.table or name in holder.clusters]
         return found
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphfx.graph.flat import FlatNode
+from graphfx.graph.flat import FlatNode, TimeSettings
 from graphfx.graph.values import Literal, Value
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
@@ -66,6 +66,17 @@ class ImagePlan:
         """Return how long before a frame tails are taken [frames]: as the shutter opens, or in time to tell velocities."""
         moving = MOTION if {"velocity", "world_velocity"} & {*self.channels} else 0.0
         return float(self.value("shutter")) or moving
+
+    def window(self, time: float = 0.0, frame: int = 0) -> tuple[float, float]:
+        """Return phase and shutter of a frame [frames], none less than 0."""
+        phase = self.value("phase", time, frame) if "phase" in self.node.arguments else 0.0
+        return max(float(phase), 0.0), max(float(self.value("shutter", time, frame)), 0.0)
+
+    def windows(self, time: TimeSettings) -> set[tuple[float, float]]:
+        """Return phases and shutters of all frames."""
+        still = all(isinstance(self.node.arguments[name], Literal) for name in ("phase", "shutter") if name in self.node.arguments)
+        frames = (time.first,) if still else range(time.first, time.last + 1)
+        return {self.window((frame - time.first) / time.fps, frame) for frame in frames}
 
 
 @dataclass

@@ -2,24 +2,25 @@
 
 `main` gives every particle the same steps. Where something befalls a particle, a contact or an end, it is
 rejected, unchanged. `own` takes those, the newborn and the dying, gathered into dense blocks: each has its
-own begin and end inside the frame, and stops at every contact. `closing` follows at the end of the frame.
+own begin and end inside the frame, and stops at every contact. What follows at the end of the frame: ends.py.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from graphfx.graph.values import Value
 from graphfx.motion import basic, events
 from graphfx.plan.contacts import Contacts
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.hits import HIT_TYPES, Fate, Hits, is_vital
-from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of
+from graphfx.plan.holder import ENDING_ROLES, Holder, moment_of
+from graphfx.plan.knots import Knots
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
+from graphfx.plan.shutter import Instant
 from graphfx.plan.turns import Turn
 from graphfx.program import Builder, Column, Uniform
 
@@ -61,19 +62,21 @@ class FrameWriter:
         given = [name for node in (*self.settings, *self.fades) for name in node.gives]
         return bool(self.endings) or any(name in live for name in given)
 
-    def _begin(self, name: str) -> tuple[Builder, Moments]:
+    def begin(self, name: str) -> tuple[Builder, Moments]:
+        """Return what begins a program."""
         builder = Builder.begin(f"{self.holder.path}: {name}")
         made = FrameProgram(builder.program, cells=self.motion.cells)
         return builder, Moments(self.seed, self.holder.path, self.precision, self.attributes, self.constant, made)
 
-    def main(self, opening_step: int) -> FrameProgram:
-        """Return the program for whole steps; the shutter opens in substep `opening_step` (-1: no motion blur)."""
-        builder, moments = self._begin("motion")
+    def main(self, instants: list[Instant]) -> FrameProgram:
+        """Return the program for whole steps, which finds the places at some instants."""
+        builder, moments = self.begin("motion")
         made, state = moments.made, moments.state(builder, self.motion.has_velocity)
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
-        tail = Column("tail", "vec3")
-        if opening_step >= 0 and resting is not None:
-            builder.call(basic.copy_vector, state.position, into=tail)
+        captures = {instant: Column(instant.column, "vec3") for instant in instants}
+        if resting is not None:
+            for column in captures.values():
+                builder.call(basic.copy_vector, state.position, into=column)
         contacts = Contacts(self.motion, self.precision, self.hits, moments)
         event: Column | None = None
         for k in range(self.substeps):
@@ -83,17 +86,18 @@ class FrameWriter:
             moment = moments.whole_step(active, k, state)
             if k == 0:
                 self.motion.prepare(moment, state)
-            before = active.call(basic.copy_vector, state.position, name="before") if k == opening_step else None
+            met = {instant: column for instant, column in captures.items() if instant.step(self.substeps) == k}
+            before = active.call(basic.copy_vector, state.position, name="before") if met else None
             start = contacts.start(active, state)
             self.motion.step(moment, state)
             if self.fades:
                 self.fade(moments.whole_step(builder, k, state), state)
             event = contacts.main_step(moment, state, event, start)
-            if before is not None:
+            for instant, column in met.items():
                 active.note = "motion blur"
-                opening = [made.time(active, name) for name in (("start", k), ("end", k), "opening")]
-                active.call(basic.capture, before, before, state.position, *opening, into=tail)
-        self._store(builder, tail if opening_step >= 0 else None)
+                times = [made.time(active, name) for name in (("start", k), ("end", k), instant.time)]
+                active.call(basic.capture, before, before, state.position, *times, into=column)
+        self.store(builder, list(captures.values()))
         if resting is not None and self.wakes:
             builder.store("resting", resting)
         builder.program.rejects = event
@@ -133,17 +137,18 @@ class FrameWriter:
         for node in self.fades:
             Setting(node, lambda: moment.writer, moment.builder, state.read, moment.dt).write(self.attributes.columns)
 
-    def own(self, motion_blur: bool) -> FrameProgram:
+    def own(self, instants: list[Instant]) -> FrameProgram:
         """Return the program for particles with times of their own: `begin` and `end` come by place."""
-        builder, moments = self._begin("motion in own time")
+        builder, moments = self.begin("motion in own time")
         made, state = moments.made, moments.state(builder, self.motion.has_velocity)
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
-        tail = builder.load("tail", "vec3") if motion_blur else None
+        captures = [(builder.load(instant.column, "vec3"), made.time(builder, instant.time)) for instant in instants]
+        knots = Knots(builder) if instants and self.motion.of("surface") and self.motion.method != "sims" else None
         fate = self._fate(builder)
         self.motion.prepare(moments.own_step(builder, 0, now, now, state), state)
         contacts = Contacts(self.motion, self.precision, self.hits, moments, fate)
-        turn = Turn(contacts, self.fade, moments, state, now, resting, tail, fate)
+        turn = Turn(contacts, self.fade, moments, state, now, resting, captures, knots, fate)
         unfinished: Column | None = None
         for k in range(self.substeps):
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
@@ -159,7 +164,8 @@ class FrameWriter:
                 turn.rest(builder, k, finish)
         if resting is not None and unfinished is not None:
             builder.store("resting", builder.call(basic.either, resting, unfinished))
-        self._store(builder, tail)
+        self.store(builder, [column for column, _ in captures])
+        made.program.stores |= knots.stores if knots is not None else {}
         made.program.stores |= {"unfinished": unfinished} if unfinished is not None else {}
         if fate is not None:
             made.program.stores |= {"fate": fate.fate, "ended": now, "surface": fate.surface, "begun": fate.begun, **fate.hit}
@@ -207,73 +213,11 @@ class FrameWriter:
             ending.call(become, turn.fate.fate, into=turn.fate.fate)
             ending.call(basic.copy_number, start, into=turn.now)
 
-    def _store(self, builder: Builder, tail: Column | None) -> None:
-        """Store what the program has changed."""
+    def store(self, builder: Builder, captures: Sequence[Column] = ()) -> None:
+        """Store what the program has changed, and the places that it has found."""
         changed = {id(column) for instruction in builder.program.walk() for column in getattr(instruction, "results", ())}
         for name, column in builder.program.loads.items():
             if name in self.attributes.types and id(column) in changed:
                 builder.store(name, column)
-        if tail is not None and "tail" in self.attributes.columns:
-            builder.store("tail", tail)
-
-    def closing(self, opening: bool = False) -> FrameProgram | None:
-        """Return the program of what is set as the frame ends; or, for `opening`, where it puts tails as the shutter opens."""
-        nodes = [node for node in self.holder.of_role(*SETTING_ROLES) if moment_of(node) == "frame"]
-        live = self.attributes.columns
-        nodes = [node for node in nodes if any(name in live for name in node.gives)]
-        if opening:
-            places = any("position" in node.gives for node in nodes)
-            nodes = nodes if places and "tail" in live else []
-        kills = [] if opening else [node for node in self.holder.of_role("kill") if moment_of(node) == "frame"]
-        if not nodes and not kills:
-            return None
-        builder, moments = self._begin("tails" if opening else "end of the frame")
-        state = moments.state(builder, self.motion.has_velocity, "tail" if opening else "position")
-        time = "opening" if opening else "frame end"
-        moved = any({"position", "velocity"} & set(node.gives) for node in nodes)
-        resting = builder.load("resting", "bool") if moved and not opening and "resting" in live else None
-        for node in nodes:
-            fixed = lambda: moments.fixed(builder, time, state)  # noqa: E731
-            Setting(node, fixed, builder, state.read, resting=resting).write(live)
-        for node in kills:
-            fate = builder.program.stores.get("fate") or builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="fate")
-            inside = under_conditions(node, moments.fixed(builder, time, state), builder)
-            inside.call(events.ended, fate, into=fate)
-            builder.store("fate", fate)
-        if opening:
-            builder.store("tail", state.position)  # type: ignore[arg-type]
-        else:
-            self._store(builder, None)
-        if resting is not None:
-            builder.store("resting", resting)
-        share(moments.made.program)
-        return moments.made
-
-    def at_death(self) -> FrameProgram | None:
-        """Return the program of what is set at deaths, and of who, dead of age, begins another life."""
-        settings = [node for node in self.holder.of_role("set", "assign") if moment_of(node) == "death"]
-        settings = [node for node in settings if any(name in self.attributes.columns for name in node.sets)]
-        recycles = [node for node in self.holder.of_role("recycle") if moment_of(node) == "death"]
-        if not settings and not recycles:
-            return None
-        builder, moments = self._begin("deaths")
-        state = moments.state(builder, self.motion.has_velocity)
-        begin = builder.load("begin", "float")
-        for node in settings:
-            Setting(node, lambda: moments.at(builder, begin, state), builder, state.read).write(self.attributes.columns)
-        renewed = builder.call(basic.copy_number, Uniform("0", "float", 0.0), name="renewed")
-        for node in recycles:
-            builder.note = node.path
-            inside = under_conditions(node, moments.at(builder, begin, state), builder)
-            inside.call(events.ended, renewed, into=renewed)
-        builder.store("renewed", renewed)
-        self._store(builder, None)
-        share(moments.made.program)
-        return moments.made
-
-    def selection(self, condition: Value) -> FrameProgram:
-        """Return the program that tells, as a frame ends, which particles a picture shows."""
-        builder, moments = self._begin("selection")
-        writer = moments.fixed(builder, "frame end", moments.state(builder, self.motion.has_velocity))
-        builder.store("selected", builder.call(basic.both, builder.mask, writer.operand(condition), name="selected"))
-        return moments.made
+        for column in captures:
+            builder.store(column.name, column)

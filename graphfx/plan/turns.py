@@ -7,12 +7,16 @@ from collections.abc import Callable
 from graphfx.motion import basic, events
 from graphfx.plan.contacts import Contacts
 from graphfx.plan.hits import Fate
+from graphfx.plan.knots import Knots
 from graphfx.plan.moment import Moment, Moments, State
-from graphfx.program import Builder, Column, Operand
+from graphfx.program import Builder, Column, Operand, Uniform
 
 
 class Turn:
-    """One turn of the loop in own time: go to the end of the step, or to the first contact on the way."""
+    """One turn of the loop in own time: go to the end of the step, or to the first contact on the way.
+
+    `captures` are the columns of places at instants, with their times; `knots` take the hits.
+    """
 
     def __init__(
         self,
@@ -22,12 +26,14 @@ class Turn:
         state: State,
         now: Column,
         resting: Column | None,
-        tail: Column | None,
+        captures: list[tuple[Column, Uniform]],
+        knots: Knots | None,
         fate: Fate | None,
     ):
         self.moments, self.state = moments, state
         self.contacts, self.fade = contacts, fade
-        self.now, self.resting, self.tail, self.fate = now, resting, tail, fate
+        self.now, self.resting, self.fate = now, resting, fate
+        self.captures, self.knots = captures, knots
 
     def going(self, builder: Builder, finish: Operand) -> Column:
         """Write who is not at the end of the step yet."""
@@ -40,9 +46,9 @@ class Turn:
 
     def write(self, inner: Builder, k: int, finish: Column) -> None:
         """Write the turn."""
-        moments, state, now, tail = self.moments, self.state, self.now, self.tail
+        moments, state, now = self.moments, self.state, self.now
         step = inner.call(basic.difference, finish, now, name="step")
-        before = inner.call(basic.copy_vector, state.position, name="before") if tail is not None else None
+        before = inner.call(basic.copy_vector, state.position, name="before") if self.captures else None
         then = inner.call(basic.copy_number, now, name="then")
         def step_of(builder: Builder, dt: Column) -> Moment:
             return moments.own_step(builder, k, then, dt, state)
@@ -54,10 +60,12 @@ class Turn:
         inner.call(basic.sum_of_numbers, then, step, into=now)
         reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
         inner.under(reached).call(basic.copy_number, finish, into=now)
-        if before is not None and tail is not None:
-            inner.note = "motion blur"
-            opening = moments.made.time(inner, "opening")
-            inner.call(basic.capture, tail, before, state.position, then, now, opening, into=tail)
+        inner.note = "motion blur" if self.captures else inner.note
+        for column, instant in self.captures:
+            inner.call(basic.capture, column, before, state.position, then, now, instant, into=column)
+        if self.knots is not None:
+            met = inner.under(inner.call(basic.but_not, inner.mask, reached, name="met"))
+            self.knots.note(met, now, state.position)  # type: ignore[arg-type]
 
     def rest(self, builder: Builder, k: int, finish: Operand) -> None:
         """Write what fades on particles that are at rest before the end of the step."""

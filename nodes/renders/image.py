@@ -23,7 +23,8 @@ from graphfx.node import language, param
 def image(
     camera: str = param(type="node", choices=("camera",), required=True, doc="The camera that it is seen through."),
     size: list = param((1280, 720), type="list", min=1, max=65536, doc="Width and height in pixels."),
-    shutter: float = param(0.5, unit="frames", min=0, max=1, doc="How long the shutter is open; 0 draws no streaks."),
+    shutter: float = param(0.5, unit="frames", min=0, max=4, doc="How long the shutter is open; 0 draws no streaks."),
+    phase: float = param(0.0, unit="frames", min=0, max=4, doc="How long before the frame's time the shutter closes."),
     background: Vec3 = param((0, 0, 0), type="color", min=0, doc="Colour behind the particles."),
     background_image: str = param("", type="path", doc="A picture behind the particles, cut to the frame's shape."),
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),
