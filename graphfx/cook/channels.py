@@ -20,16 +20,15 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.cameras import camera_at
-from graphfx.cook.particles import Particles
-from graphfx.cook.pictures import Chosen, draw, shares
+from graphfx.cook.pictures import draw, window_of
 from graphfx.cook.simulate import Simulation
+from graphfx.cook.streaks import Shown, way_of
 from graphfx.output.deep import DeepFile
 from graphfx.output.exr import as_half
-from graphfx.plan.pictures import ImagePlan
+from graphfx.plan.pictures import MOTION, ImagePlan
 from graphfx.render.film import Film
 from graphfx.render.motion import screen_motion, world_motion
 from graphfx.render.samples import NOTHING, Samples, fold_samples
-from graphfx.render.streaks import Streaks
 
 FARTHEST = np.float32(1e30)
 """Depth of a pixel in which nothing is seen."""
@@ -54,8 +53,8 @@ def draw_all(image: ImagePlan, simulation: Simulation, frame: int, threads: int,
         return draw(image, simulation, frame, threads)
     made: list[Channels] = []
 
-    def sampling(drawn: list[Chosen]) -> Callable[[Samples], None]:
-        columns = particle_columns(image, simulation, frame, drawn)
+    def sampling(shown: list[Shown]) -> Callable[[Samples], None]:
+        columns = particle_columns(image, simulation, frame, shown)
         if deep is not None:
             return deep(columns)
         made.append(Channels(columns, "depth" in image.channels, *image.size))
@@ -67,27 +66,28 @@ def draw_all(image: ImagePlan, simulation: Simulation, frame: int, threads: int,
     return film
 
 
-def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, drawn: list[Chosen]) -> dict[str, np.ndarray]:
-    """Return what an image's channels hold of every particle drawn, of all streams together, by name in the file.
+def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, shown: list[Shown]) -> dict[str, np.ndarray]:
+    """Return what an image's channels hold of every streak drawn, of all streams together, by name in the file.
 
     The last row, which NOTHING as a number means, is 0.
     """
-    clock, found = simulation.clock, dict[str, list[np.ndarray]]()
-    time = clock.time_of(frame)
-    opening = max(time - simulation.plan.shutter / clock.fps, clock.start)
-    cameras = [camera_at(image.camera, at, frame) for at in (time, opening)]
-    for number, each in enumerate(drawn, 1):
-        particles, shown = each.particles, slice(None) if each.rows is None else each.rows
-        streaks = _way(particles, shown, time, opening)
+    found = dict[str, list[np.ndarray]]()
+    window = window_of(image, simulation, frame)
+    fps = simulation.clock.fps
+    if window.length <= 0:
+        window = window._replace(opening=max(window.closing - MOTION / fps, window.start))
+    cameras = [camera_at(image.camera, at, frame) for at in (window.closing, window.opening)]
+    for each in shown:
+        streaks = each.streaks if each.streaks.tail is not None else way_of(each, window)
         values: dict[str, np.ndarray] = {}
         if "velocity" in image.channels:
-            values["velocity"] = screen_motion(streaks, cameras[0], cameras[1], *image.size, (time - opening) * clock.fps)
+            values["velocity"] = screen_motion(streaks, cameras[0], cameras[1], *image.size, window.length * fps)
         if "world_velocity" in image.channels:
-            values["world_velocity"] = world_motion(streaks, time - opening)
+            values["world_velocity"] = world_motion(streaks, window.length)
         if "id" in image.channels:
-            values["id"] = particles.store.column("id")[0][shown, None].astype(np.uint32)
+            values["id"] = each.particles.store.column("id")[0][each.rows, None].astype(np.uint32)
         if "stream" in image.channels:
-            values["stream"] = np.full((streaks.count, 1), number, np.uint32)
+            values["stream"] = np.full((streaks.count, 1), each.stream + 1, np.uint32)
         for channel, columns in values.items():
             for name, column in zip(COLUMNS[channel], columns.T, strict=True):
                 found.setdefault(name, []).append(column)
@@ -97,21 +97,6 @@ def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, drawn
 def columns_of(image: ImagePlan) -> list[str]:
     """Return the names of what an image's file holds of particles."""
     return [name for channel in image.channels for name in COLUMNS.get(channel, ())]
-
-
-def _way(particles: Particles, shown: Any, time: float, opening: float) -> Streaks:
-    """Return where particles went since tails were taken, or since they were born."""
-    store = particles.store
-    count = len(np.arange(store.count)[shown])
-
-    def places(name: str) -> np.ndarray:
-        if name not in store.columns:
-            return np.repeat(np.array(particles.value(name), np.float32)[:, None], count, axis=1)
-        return np.stack([np.asarray(array[shown], np.float32) for array in store.column(name)])
-
-    share = shares(particles, time, opening)
-    return Streaks(places("position"), places("tail") if "tail" in store.columns else None,
-                   share=1.0 if share is None else share[shown].astype(np.float32))
 
 
 @dataclass

@@ -36,6 +36,11 @@ class Window(NamedTuple):
         """Return how long the shutter is open [s]."""
         return self.closing - self.opening
 
+    def is_kept(self, instants: tuple[Instant, ...]) -> bool:
+        """Return whether a way is one from the only instant kept, at which the shutter opens, to now."""
+        opening = max(self.time - instants[-1].back / self.fps, self.start)
+        return len(instants) == 1 and abs(opening - self.opening) * self.fps < 1e-6
+
     def uses(self, instant: Instant, last: bool) -> bool:
         """Return whether a way goes through an instant: a whole frame ago, at one of the window's ends, or the last kept."""
         ends = (self.time - self.closing, self.time - self.opening)
@@ -126,8 +131,8 @@ def with_bends(ways: Ways, bends: Bends, rows: np.ndarray) -> Ways:
     place = place[which]
     counts = np.bincount(place, minlength=len(rows))
     number = np.arange(len(place)) - np.repeat(np.cumsum(counts) - counts, counts)
-    times = np.full((counts.max(initial=0), len(rows)), -np.inf)
-    places = np.zeros((3, *times.shape))
+    most = int(counts.max(initial=0))
+    times, places = np.repeat(ways.times[-1:], most, axis=0), np.repeat(ways.places[:, -1:], most, axis=1)
     times[number, place], places[:, number, place] = bends.times[which], bends.places[:, which]
     times, places = np.concatenate([ways.times, times]), np.concatenate([ways.places, places], axis=1)
     order = np.argsort(-times, axis=0, kind="stable")
@@ -140,8 +145,8 @@ def within(ways: Ways, begin: np.ndarray, end: np.ndarray) -> Ways:
     after, before = ways.times > end, ways.times < begin
     times = np.where(after, end, np.where(before, begin, ways.times))
     places = np.where(after, head[:, None], np.where(before, tail[:, None], ways.places))
-    times, places = np.concatenate([end[None], times, begin[None]]), np.concatenate([head[:, None], places, tail[:, None]], axis=1)
-    return Ways(times, places)
+    times = np.concatenate([end[None], times, begin[None]])
+    return Ways(times, np.concatenate([head[:, None], places, tail[:, None]], axis=1))
 
 
 def are_straight(ways: Ways, radius: np.ndarray | float) -> np.ndarray:
@@ -162,6 +167,13 @@ class Pieces(NamedTuple):
     head_time: np.ndarray
     tail_time: np.ndarray
     joined: np.ndarray
+
+    def chosen(self, which: np.ndarray) -> Pieces:
+        """Return some of them."""
+        return Pieces(
+            self.owner[which], self.head[:, which], self.tail[:, which], self.head_time[which], self.tail_time[which],
+            self.joined[which],
+        )
 
 
 def pieces_of(ways: Ways) -> Pieces:

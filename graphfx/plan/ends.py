@@ -1,4 +1,4 @@
-"""Write the programs of ends: of a frame, where attributes are set that the picture shows; of lives; and of what pictures select."""
+"""Write the programs of ends: of frames, where attributes are set that pictures show, of lives; and of selections."""
 
 from __future__ import annotations
 

@@ -33,8 +33,9 @@ class EmitterPlan:
 
     `births` are the programs of all who make particles of it, its own first. `main` and `own` are None where nothing
     happens in a step; `closing` is what is set as a frame ends, `closing_at` as a life ends within it. `places` are where
-    that puts particles at instants before, by column: the old ones, and those born after it. `at_death` is what is set then and who begins another life; `seeds` finds positions alone, for clusters. `method` is
-    how motion is computed, `reason` why. `constants` are the attributes that are one for all.
+    that puts particles at instants before, by column: the old ones, and those born after it. `at_death` is what is set then
+    and who begins another life; `seeds` finds positions alone, for clusters. `method` is how motion is computed, `reason` why.
+    `constants` are the attributes that are one for all. `exposure` is what pictures see of the past.
     """
 
     holder: Holder

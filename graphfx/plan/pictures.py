@@ -61,22 +61,17 @@ class ImagePlan:
         """Return the attributes that it reads of particles."""
         return (*READ[self.node.node_type.role], *(("id",) if "id" in self.channels else ()))
 
-    @property
-    def tail_shutter(self) -> float:
-        """Return how long before a frame tails are taken [frames]: as the shutter opens, or in time to tell velocities."""
-        moving = MOTION if {"velocity", "world_velocity"} & {*self.channels} else 0.0
-        return float(self.value("shutter")) or moving
-
     def window(self, time: float = 0.0, frame: int = 0) -> tuple[float, float]:
         """Return phase and shutter of a frame [frames], none less than 0."""
-        phase = self.value("phase", time, frame) if "phase" in self.node.arguments else 0.0
-        return max(float(phase), 0.0), max(float(self.value("shutter", time, frame)), 0.0)
+        return max(float(self.value("phase", time, frame) or 0.0), 0.0), max(float(self.value("shutter", time, frame)), 0.0)
 
     def windows(self, time: TimeSettings) -> set[tuple[float, float]]:
-        """Return phases and shutters of all frames."""
-        still = all(isinstance(self.node.arguments[name], Literal) for name in ("phase", "shutter") if name in self.node.arguments)
-        frames = (time.first,) if still else range(time.first, time.last + 1)
-        return {self.window((frame - time.first) / time.fps, frame) for frame in frames}
+        """Return phases and shutters of all frames; velocities are told over some time, also where the shutter stays shut."""
+        given = [self.node.arguments[name] for name in ("phase", "shutter") if name in self.node.arguments]
+        frames = (time.first,) if all(isinstance(value, Literal) for value in given) else range(time.first, time.last + 1)
+        found = {self.window((frame - time.first) / time.fps, frame) for frame in frames}
+        moving = {"velocity", "world_velocity"} & {*self.channels}
+        return {(phase, shutter or (MOTION if moving else 0.0)) for phase, shutter in found}
 
 
 @dataclass

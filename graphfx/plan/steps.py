@@ -94,6 +94,7 @@ class FrameWriter:
                 self.fade(moments.whole_step(builder, k, state), state)
             event = contacts.main_step(moment, state, event, start)
             for instant, column in met.items():
+                assert before is not None
                 active.note = "motion blur"
                 times = [made.time(active, name) for name in (("start", k), ("end", k), instant.time)]
                 active.call(basic.capture, before, before, state.position, *times, into=column)

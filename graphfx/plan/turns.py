@@ -62,6 +62,7 @@ class Turn:
         inner.under(reached).call(basic.copy_number, finish, into=now)
         inner.note = "motion blur" if self.captures else inner.note
         for column, instant in self.captures:
+            assert before is not None
             inner.call(basic.capture, column, before, state.position, then, now, instant, into=column)
         if self.knots is not None:
             met = inner.under(inner.call(basic.but_not, inner.mask, reached, name="met"))

@@ -11,6 +11,7 @@ part between the near and the far plane; what has none does not move.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from graphfx.render.streaks import Streaks
 
 def _per_second(streaks: Streaks, span: float) -> np.ndarray:
     """Return one over the time (n,) in which each particle lives while the shutter is open; 0 for none."""
-    lived = np.broadcast_to(np.asarray(streaks.share, np.float64) * span, streaks.count)
+    lived = np.broadcast_to(np.asarray(streaks.share, np.float64) * np.asarray(streaks.part) * span, streaks.count)
     return np.divide(1.0, lived, out=np.zeros(streaks.count), where=lived > 0.0)
 
 
@@ -32,8 +33,9 @@ def world_motion(streaks: Streaks, seconds: float) -> np.ndarray:
 
 def screen_motion(streaks: Streaks, head: Camera, tail: Camera, width: int, height: int, frames: float) -> np.ndarray:
     """Return the mean motion of each particle (n, 2) on the screen while the shutter is open, pixels a frame."""
-    first = _transformed(head.screen_matrix(width, height), streaks.head)
-    last = _transformed(tail.screen_matrix(width, height), streaks.head if streaks.tail is None else streaks.tail)
+    matrices = head.screen_matrix(width, height), tail.screen_matrix(width, height)
+    first = _at_moment(matrices, streaks.head, streaks.head_moment)
+    last = _at_moment(matrices, streaks.head if streaks.tail is None else streaks.tail, streaks.tail_moment)
     near, far = head.planes
     with np.errstate(divide="ignore", invalid="ignore"):
         at_near, at_far = ((plane - first[2]) / (last[2] - first[2]) for plane in (near, far))
@@ -44,6 +46,12 @@ def screen_motion(streaks: Streaks, head: Camera, tail: Camera, width: int, heig
         motion = (x0 - x1) / (stop - start) * _per_second(streaks, frames)
     seen = (start < stop) & (~level | ((first[2] >= near) & (first[2] <= far))) & np.isfinite(motion).all(axis=0)
     return np.where(seen, motion * [[1.0], [-1.0]], 0.0).T.astype(np.float32)
+
+
+def _at_moment(matrices: Sequence[np.ndarray], points: Sequence[np.ndarray] | np.ndarray, moment: Any) -> np.ndarray:
+    """Return points as seen at moments between two cameras."""
+    first, last = (_transformed(matrix, points) for matrix in matrices)
+    return first + np.asarray(moment, np.float64) * (last - first)
 
 
 def _transformed(matrix: np.ndarray, points: Sequence[np.ndarray] | np.ndarray) -> np.ndarray:

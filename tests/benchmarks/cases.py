@@ -124,7 +124,7 @@ class Engine:
             numbers = [*of("gravity", "acceleration"), *of("damp", "damping"), *of("vortex", *vortex), *of("other", *vortex),
                        *plane, *spheres, length]
             return np.array(numbers, np.float32)
-        opening = max(interval.length - self.plan.shutter / self.plan.flat.time.fps, 0.0)
+        opening = max(interval.length - self.plan.images[0].window()[1] / self.plan.flat.time.fps, 0.0)
         numbers = [*of("gust/left", *vortex), *of("gust/right", *vortex), *of("bounce_plane", "point", "normal"), 2, 5,
                    length, length / 2, 0, length, opening]
         return np.concatenate([np.array(numbers, np.float32), np.array(self._key(), np.uint32).view(np.float32)])

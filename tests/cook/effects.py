@@ -9,9 +9,13 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.effect import Effect
+from graphfx.cook.paths import Window
+from graphfx.cook.simulate import Simulation
+from graphfx.cook.streaks import streaks_of
 from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
+from graphfx.render.streaks import Streaks
 
 FALLING = {"position": {"in_box": {"min": [-1, 1, -1], "max": [1, 2, 1]}}, "velocity": [0.5, 1, -0.25]}
 """A `set` that gives particles a place of their own and one velocity."""
@@ -56,6 +60,12 @@ def particles(document: dict[str, Any] | Effect, frame: int, emitter: str = "sky
     """Return the columns of one emitter's particles at a frame."""
     found = document if isinstance(document, Effect) else effect(document)
     return found.simulate(frame, **how)[emitter]
+
+
+def streaks_at(simulation: Simulation, time: float, opening: float) -> list[Streaks]:
+    """Return the streaks of the particles of `sky` while a shutter is open up to the time of the frame."""
+    window = Window(opening, time, time, simulation.clock.start, simulation.clock.fps)
+    return [shown.streaks for shown in streaks_of(simulation.particles["sky"], None, {}, window, False)]
 
 
 def bits(columns: dict[str, dict[str, np.ndarray]]) -> dict[str, dict[str, Any]]:

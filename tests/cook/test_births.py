@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphfx.cook.pictures import Chosen, streaks_of
 from graphfx.errors import LimitError
 
-from .effects import effect, graph, made
+from .effects import effect, graph, made, streaks_at
 
 STILL = {"velocity": [0, 0, 0]}
 
@@ -98,7 +97,7 @@ def test_born_and_dead_within_a_frame():
     frame = list(simulation.frames(2))[-1]
     sky = simulation.particles["sky"]
     assert frame == 2 and sky.alive == 1  # the one born at 0.1
-    streaks = streaks_of(Chosen(sky), {}, 0.1, 0.0)
+    streaks = streaks_at(simulation, 0.1, 0.0)[0]
     np.testing.assert_allclose(sorted(streaks.share), [0.2, 0.2, 0.2, 0.2], atol=1e-6)
 
 
@@ -107,7 +106,7 @@ def test_shares_of_the_shutter():
     found = made([], {"rate": 10, "life": 0.25, "set": {"velocity": [1, 0, 0]}}, {"fps": 4, "frames": [1, 5]}, {"shutter": 0.8})
     simulation = found.simulation()
     frame = list(simulation.frames(3))[-1]
-    streaks = streaks_of(Chosen(simulation.particles["sky"]), {}, 0.5, 0.3)
+    streaks = streaks_at(simulation, 0.5, 0.3)[0]
     births = np.arange(6) / 10
     wanted = (np.minimum(births + 0.25, 0.5) - np.maximum(births, 0.3)) / 0.2
     assert frame == 3

@@ -10,10 +10,9 @@ from click.testing import CliRunner
 
 from graphfx.cli.main import main
 from graphfx.cook import lives
-from graphfx.cook.pictures import Chosen, streaks_of
 from graphfx.errors import CookError, GraphError
 
-from .effects import effect, graph, particles
+from .effects import effect, graph, particles, streaks_at
 
 RATES = [(24, 1), (10, 2), (7, 1), (60, 1)]
 FALL = {"count": 1, "rate": 0, "set": {"position": [0, 1, 0], "velocity": [1, -2, 0]}}
@@ -106,7 +105,7 @@ def test_what_dies_is_drawn_for_its_share_of_the_shutter():
         simulation = found.simulation()
         list(simulation.frames(2))
         opening = {0.875: 0.375, 1.0: 0.5}[time]
-        made = streaks_of(Chosen(simulation.particles["sky"]), {}, time, opening)
+        made = streaks_at(simulation, time, opening)[0]
         np.testing.assert_allclose(made.share, [share], atol=1e-6)
         assert len(made.share) == 1
 

@@ -5,9 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from graphfx.cook.pictures import Chosen, streaks_of
-
-from .effects import effect, graph, particles
+from .effects import effect, graph, particles, streaks_at
 
 RATES = [(24, 1), (24, 3), (25, 2), (7, 1), (60, 1)]
 FALL = {"count": 1, "rate": 0, "set": {"position": [0, 1, 0], "velocity": [1, -2, 0], "radius": 0.25}}
@@ -158,7 +156,7 @@ def streaks(ops, frame, emit=FALL, shutter=0.5):
     for _ in simulation.frames(frame):
         pass
     time = simulation.clock.time_of(frame)
-    return streaks_of(Chosen(simulation.particles["sky"]), {}, time, time - shutter / 24)
+    return streaks_at(simulation, time, time - shutter / 24)[0]
 
 
 def test_tail_has_what_is_set_for_it():
@@ -174,8 +172,8 @@ def test_path_set_each_frame_has_tails_on_it():
     """Where a path is followed, the tail is where the path was as the shutter opened."""
     ops = [{"type": "set", "set": {"position": {"expr": "birth.position + vec(time * time, 0, 0)"}}}]
     made = streaks(ops, 7, {"count": 1, "rate": 0, "set": {"position": [0, 1, 0]}})
-    np.testing.assert_allclose(made.head[:, 0], [(6 / 24) ** 2, 1, 0], rtol=0, atol=1e-7)
-    np.testing.assert_allclose(made.tail[:, 0], [(5.5 / 24) ** 2, 1, 0], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(np.asarray(made.head)[:, 0], [(6 / 24) ** 2, 1, 0], rtol=0, atol=1e-7)
+    np.testing.assert_allclose(np.asarray(made.tail)[:, 0], [(5.5 / 24) ** 2, 1, 0], rtol=0, atol=1e-7)
 
 
 @pytest.mark.parametrize("fps, substeps", RATES)
