@@ -36,13 +36,14 @@ def scene(ops, emit, shutter=1.0, phase=0.0, look=None, camera=None, frames=9, f
 
 
 def pieces(found, frame, **how) -> list[Streaks]:
-    """Return the streaks of a frame's picture, still ones of no part left out."""
+    """Return the streaks of a frame's picture."""
     simulation = found.simulation(**how)
     for _ in simulation.frames(frame):
         pass
     window, image = window_of(found.plan.images[0], simulation, frame), found.plan.images[0]
     both = [simulation.particles["sky"]] + [past for past in [simulation.particles["sky"].past] if past is not None]
-    return [shown.streaks for each in both for shown in streaks_of(each, None, image.streams[0].looks, window, False)]
+    made = [shown.streaks for each in both for shown in streaks_of(each, None, image.streams[0].looks, window, False)]
+    return [streaks for streaks in made if streaks.count]
 
 
 def ways(found, frame) -> list[tuple[Any, ...]]:
