@@ -81,3 +81,24 @@ def limits(command: Any) -> Any:
                    click.option("--limit-particles", help="Particles of an emitter alive at once, at most.", **number)):
         command = option(command)
     return command
+
+
+Size = tuple[int, int | None]
+"""Width and height in pixels; the height may follow from a picture's."""
+
+
+class _Size(click.ParamType):
+    name = "size"
+
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> Size:
+        """Return the size that was typed."""
+        if isinstance(value, tuple):
+            return value[0], value[1]
+        found = re.fullmatch(r"(\d{1,5})(?:x(\d{1,5}))?", value)
+        if found is None or not all(0 < int(part) <= 65536 for part in found.groups() if part):
+            self.fail(f"'{value}' is no size; write 320 for the width, or 320x180; each from 1 to 65536", parameter, context)
+        return int(found[1]), int(found[2]) if found[2] else None
+
+
+size: Callable[[Any], Any] = click.option(
+    "--size", type=_Size(), metavar="WIDTH[xHEIGHT]", help="Pixels; as the picture, but 640 wide at most, if not given.")

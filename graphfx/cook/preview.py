@@ -1,4 +1,4 @@
-"""Any graph as a preview: its first picture drawn as lines, small, into one animation.
+"""Any graph, small and as one animation: its first picture, drawn as lines or as it is.
 
 A graph without a picture is seen by a camera that holds all of its particles:
 
@@ -41,8 +41,9 @@ QUALITY = 60.0
 """Of the movie: enough to judge motion by, and quickly encoded."""
 
 
-def preview_of(flat: FlatGraph, library: Library, file: str, size: tuple[int, int | None] | None = None) -> FlatGraph:
-    """Return a graph that draws the first picture of another as lines into `file`, an animation.
+def preview_of(flat: FlatGraph, library: Library, file: str, size: tuple[int, int | None] | None = None,
+               draws: str = "preview") -> FlatGraph:
+    """Return a graph that draws the first picture of another small into `file`, an animation; `draws` is the type of node.
 
     With # in its name `file` is the stills' name, and there is no animation. `size` is the width, and the height unless that
     follows from the picture's.
@@ -50,13 +51,13 @@ def preview_of(flat: FlatGraph, library: Library, file: str, size: tuple[int, in
     pictures = [node for node in flat.nodes.values() if node.node_type.role in PICTURES and node.enabled]
     nodes = {path: node for path, node in flat.nodes.items() if node.node_type.role not in OUTPUTS}
     picture = pictures[0] if pictures else _everything(flat, library, nodes)
-    arguments = {name: picture.arguments.get(name, value) for name, value in _defaults(library, "preview").items()}
+    arguments = {name: picture.arguments.get(name, value) for name, value in _defaults(library, draws).items()}
     arguments["size"] = _literal("list", list(_reduced([int(part) for part in plain_value(arguments["size"])], size)))
     stills = "#" in file
     if stills:
         arguments["file"] = _literal("string", file, Location("--out"))
-    node_type = library["preview"]
-    nodes[picture.path] = replace(picture, node_type=node_type, arguments=arguments, given=frozenset(["file"] if stills else []))
+    stated = frozenset(["file"] if stills else [])
+    nodes[picture.path] = replace(picture, node_type=library[draws], arguments=arguments, given=stated)
     if not stills:
         movie: dict[str, Value] = _defaults(library, "movie")
         movie |= {"file": _literal("string", file, Location("--out")), "quality": _literal("float", QUALITY)}

@@ -256,7 +256,8 @@ def _tile(segments, tile, left, top, columns, rows, between):
         opacity, t, hit = segment.at(x, y)
         if hit.any():
             own, colors = segment.attributes(t)
-            layers.append((np.where(hit, keys_of(segment, left, top), F(np.inf)), np.minimum(opacity * own, 1), colors, hit, segment.add))
+            keys = np.where(hit, keys_of(segment, left, top), F(np.inf))
+            layers.append((keys, np.minimum(opacity * own, 1), colors, hit, segment.add))
     if not layers:
         _put_between(between, tile, np.zeros((0, 16, 8)), np.zeros((0, 16, 8)), np.zeros((0, 3, 16, 8)), np.zeros((0, 16, 8)))
         return 0

@@ -66,9 +66,11 @@ def typed(context: click.Context) -> list[str]:
             again += [part for name, given in value.items() for part in ("--set", f"{name}={given}")]
         elif option.name == "library":
             again += [part for folder in value for part in ("--library", folder)]
-        elif option.name in ("threads", "size") and value is not None:
-            again += [option.opts[0], str(value)]
-    return again + [part for name, limit in context.params["limits"].items() for part in (f"--limit-{name}", str(limit))]
+        elif option.name == "size" and value is not None:
+            again += ["--size", "x".join(str(part) for part in value if part is not None)]
+        elif option.name == "threads" and value is not None:
+            again += ["--threads", str(value)]
+    return again + [part for name, limit in context.params.get("limits", {}).items() for part in (f"--limit-{name}", str(limit))]
 
 
 def ready(out: Path) -> None:
