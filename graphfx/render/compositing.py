@@ -7,12 +7,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from graphfx.render.cover import Cover, begin_group, new_cover
-from graphfx.render.deep import FIRST_CAPACITY, Buffer, new_buffer, render_deep
+from graphfx.render.deep import FIRST_CAPACITY, Buffer, clear_buffer, new_buffer, render_deep
 from graphfx.render.layer import GROUPS
 from graphfx.render.layers import Layers
 from graphfx.render.segments import Segments
 from graphfx.render.tiles import Tiles, new_scratch, render_tiles
-from graphfx.store.threads import parallel, parallel_ranges, ranges
+from graphfx.store.threads import parallel_ranges, ranges
 
 PIECES = 16
 """Pieces of a patch for each thread: enough that none waits long for the last."""
@@ -31,13 +31,17 @@ def composite(segments: Segments, tiles: Tiles, layers: Layers | None, threads: 
 
     parallel_ranges(work, bounds, threads)
     deep = np.flatnonzero(overflowed)
-    deep_fragments = [0] * len(deep)
+    bounds = ranges(len(deep), threads * PIECES)
+    deep_fragments = [0] * len(bounds)
 
-    def work_deep(piece: int) -> None:
-        buffer, cover = new_buffer(FIRST_CAPACITY), _begun_cover(layers, deep[piece])
-        deep_fragments[piece], _ = render_deep(segments, tiles, deep[piece], True, buffer, pixels, cover)
+    def work_deep(piece: int, start: int, stop: int) -> None:
+        buffer = new_buffer(FIRST_CAPACITY)
+        for number in deep[start:stop]:
+            clear_buffer(buffer)
+            made, buffer = render_deep(segments, tiles, number, True, buffer, pixels, _begun_cover(layers, number))
+            deep_fragments[piece] += made
 
-    parallel(work_deep, len(deep), threads)
+    parallel_ranges(work_deep, bounds, threads)
     return sum(fragments) + sum(deep_fragments)
 
 

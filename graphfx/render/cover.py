@@ -38,7 +38,6 @@ class Cover(NamedTuple):
     samples: np.ndarray
     means: np.ndarray
     due: np.ndarray
-    due_bits: np.ndarray
     rows: np.ndarray
     stops: np.ndarray
 
@@ -47,8 +46,8 @@ def new_cover(layers: Layers | None) -> Cover | None:
     """Return a cover for one thread, or None where there are no polygons."""
     if layers is None:
         return None
-    due, rows = np.empty(PIXELS, F), np.empty((2, PIXELS), np.int64)
-    return Cover(layers, np.empty(PIXELS * SAMPLES, F), np.empty(PIXELS, F), due, due.view(np.uint32), *rows)
+    rows = np.empty((2, PIXELS), np.int64)
+    return Cover(layers, np.empty(PIXELS * SAMPLES, F), np.empty(PIXELS, F), np.empty(PIXELS, F), *rows)
 
 
 @inner

@@ -106,7 +106,8 @@ def to_front(slots, base, first, count):
 
 
 @inner
-def _store_slot(slots, place, key, opacity, red, green, blue):
+def store_slot(slots, place, key, opacity, red, green, blue):
+    """Write a slot."""
     store(slots, place, key)
     store(slots, place + LANES, opacity)
     store(slots, place + 2 * LANES, red)
@@ -128,7 +129,7 @@ def insert(slots, base, first, count, key, opacity, red, green, blue):
         sooner = key < key_there
         if not any_lane(sooner):
             break
-        _store_slot(
+        store_slot(
             slots, place, where(sooner, key_there, key), where(sooner, load(slots, before + LANES), opacity),
             where(sooner, load(slots, before + 2 * LANES), red), where(sooner, load(slots, before + 3 * LANES), green),
             where(sooner, load(slots, before + 4 * LANES), blue),
@@ -138,5 +139,5 @@ def insert(slots, base, first, count, key, opacity, red, green, blue):
         green = where(sooner, green, load(slots, before + 3 * LANES))
         blue = where(sooner, blue, load(slots, before + 4 * LANES))
         place = before
-    _store_slot(slots, place, key, opacity, red, green, blue)
+    store_slot(slots, place, key, opacity, red, green, blue)
     return count + 1 if any_lane(load(slots, back) < EMPTY) else count

@@ -14,7 +14,7 @@ from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
 from graphfx.render.bins import bin_segments
 from graphfx.render.camera import Camera
-from graphfx.render.layer import GROUP_HEIGHT, GROUPS, colored, fragments, groups_touched, localize
+from graphfx.render.layer import GROUP_HEIGHT, GROUPS, alpha_of, colored, fragments, groups_touched, localize
 from graphfx.render.order import ordered
 from graphfx.render.patches import whole_picture
 from graphfx.render.pending import LIGHT, add_layer, clear_light
@@ -79,7 +79,7 @@ def _at(array: np.ndarray) -> ctypes.c_void_p:
 def _draw(segments, q, local, group, square, scratch):
     key, shape, t, hit = fragments(local, group, square)
     opacity, red, green, blue = colored(segments, q, local, key, t, square)
-    add_layer(scratch.light, group * LIGHT, where(hit, opacity * shape, 0.0), red, green, blue, None)
+    add_layer(scratch.light, group * LIGHT, where(hit, alpha_of(opacity, shape), 0.0), red, green, blue, None)
 
 
 @compiled
