@@ -91,12 +91,17 @@ def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, shown
         for channel, columns in values.items():
             for name, column in zip(COLUMNS[channel], columns.T, strict=True):
                 found.setdefault(name, []).append(column)
-    return {name: np.concatenate([*parts, np.zeros(1, parts[0].dtype)]) for name, parts in found.items()}
+    return {name: np.concatenate([*found.get(name, ()), np.zeros(1, kind_of(name))]) for name in columns_of(image)}
 
 
 def columns_of(image: ImagePlan) -> list[str]:
     """Return the names of what an image's file holds of particles."""
     return [name for channel in image.channels for name in COLUMNS.get(channel, ())]
+
+
+def kind_of(name: str) -> np.dtype[Any]:
+    """Return the type of the numbers of a column."""
+    return np.dtype(np.uint32 if name in WHOLE else np.float32)
 
 
 @dataclass
@@ -131,7 +136,7 @@ class Channels:
 def deep_types(names: Iterable[str], bits: int) -> dict[str, np.dtype[Any]]:
     """Return the channels of a deep file and their types; `names` are those of what it holds of particles."""
     color = np.dtype(np.float16 if bits == 16 else np.float32)
-    own = {name: np.dtype(np.uint32 if name in WHOLE else np.float32) for name in names}
+    own = {name: kind_of(name) for name in names}
     return {**dict.fromkeys((*COLOR, "A"), color), "Z": np.dtype(np.float32), **own}
 
 

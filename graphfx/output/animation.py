@@ -10,7 +10,6 @@ from __future__ import annotations
 import io
 import os
 import struct
-import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from fractions import Fraction
@@ -20,7 +19,7 @@ import numpy as np
 
 from graphfx.errors import OutputError, Problem
 from graphfx.output.atomic import whole_file
-from graphfx.output.png import COMPRESSION
+from graphfx.output.png import beginning, chunk, compressed
 
 Add = Callable[[np.ndarray], None]
 """Takes the next frame: (height, width, 3 or 4) bytes of sRGB, red, green, blue and alpha."""
@@ -31,7 +30,6 @@ LONGEST_DELAY = 65535
 EFFORT = 0
 """How hard to try to make pictures small that lose nothing, 0 to 100: all of it saves a hundredth, for a quarter more time."""
 _RIFF_LIMIT = 2**32 - 10
-_PNG_HEAD = b"\x89PNG\r\n\x1a\n"
 
 
 @contextmanager
@@ -102,43 +100,22 @@ def animated_png(path: str | os.PathLike[str], fps: float) -> Iterator[Add]:
         def add(picture: np.ndarray) -> None:
             nonlocal frames, numbered, counted_at
             height, width, _ = picture.shape
-            head, data = _png_chunks(picture)
+            data = b"".join(compressed(picture))
             if not frames:
-                stream.write(_PNG_HEAD + _png_chunk(b"IHDR", head))
+                stream.write(beginning(picture))
                 counted_at = stream.tell()
-                stream.write(_png_chunk(b"acTL", bytes(8)))
+                stream.write(chunk(b"acTL", bytes(8)))
             control = struct.pack(">IIIIIHHBB", numbered, width, height, 0, 0, shown.numerator, shown.denominator, 0, 0)
-            stream.write(_png_chunk(b"fcTL", control))
+            stream.write(chunk(b"fcTL", control))
             numbered += 1
             if frames:
-                stream.write(_png_chunk(b"fdAT", struct.pack(">I", numbered) + data))
+                stream.write(chunk(b"fdAT", struct.pack(">I", numbered) + data))
                 numbered += 1
             else:
-                stream.write(_png_chunk(b"IDAT", data))
+                stream.write(chunk(b"IDAT", data))
             frames += 1
 
         yield add
-        stream.write(_png_chunk(b"IEND", b""))
+        stream.write(chunk(b"IEND", b""))
         stream.seek(counted_at)
-        stream.write(_png_chunk(b"acTL", struct.pack(">II", frames, 0)))
-
-
-def _png_chunk(name: bytes, content: bytes) -> bytes:
-    """Return a chunk of a PNG file with its sum."""
-    return struct.pack(">I", len(content)) + name + content + struct.pack(">I", zlib.crc32(name + content))
-
-
-def _png_chunks(picture: np.ndarray) -> tuple[bytes, bytes]:
-    """Return the header and the data of a picture as PNG."""
-    from PIL import Image
-
-    made = io.BytesIO()
-    Image.fromarray(picture).save(made, "PNG", compress_level=COMPRESSION)
-    content = made.getvalue()
-    head, data, at = b"", b"", len(_PNG_HEAD)
-    while at < len(content):
-        size, name = int.from_bytes(content[at : at + 4], "big"), content[at + 4 : at + 8]
-        body = content[at + 8 : at + 8 + size]
-        head, data = body if name == b"IHDR" else head, data + body if name == b"IDAT" else data
-        at += 12 + size
-    return head, data
+        stream.write(chunk(b"acTL", struct.pack(">II", frames, 0)))

@@ -63,7 +63,8 @@ def filmic(linear: np.ndarray) -> np.ndarray:
 def straight(film: np.ndarray) -> np.ndarray:
     """Return (height, width, 4) with colours that are not multiplied by alpha; they may pass 1, alpha does not."""
     picture = np.maximum(film, 0.0)
-    alpha = np.minimum(picture.max(axis=-1), 1.0)
+    red, green, blue, alpha = (picture[..., plane] for plane in range(4))
+    alpha = np.minimum(np.maximum(np.maximum(red, green), np.maximum(blue, alpha)), 1.0)
     picture[..., :3] /= np.where(alpha > 0.0, alpha, 1.0)[..., None]
     picture[..., 3] = alpha
     return picture

@@ -1,8 +1,10 @@
 """PNG pictures of 8 and 16 bits a number. [W3C, Portable Network Graphics, third edition]
 
 Every row is filtered by `Up`, its difference from the row above: of the five filters it made the smallest files of
-particles, or nearly so. Bands of rows are compressed apart, each to whole bytes, and follow one
-another in one zlib stream; so several threads can make a file, and any number of them makes the same.
+particles, or nearly so. Of what is left only runs are sought (zlib's strategy for pictures): a third of the time of
+its level 4, for files between a twentieth smaller and a fifth larger. Bands of rows are compressed apart, each to
+whole bytes, and follow one another in one zlib stream; so several threads can make a file, and any number of them
+makes the same.
 """
 
 from __future__ import annotations
@@ -10,7 +12,6 @@ from __future__ import annotations
 import os
 import struct
 import zlib
-from collections.abc import Iterator
 
 import numpy as np
 
@@ -20,8 +21,6 @@ from graphfx.store.threads import parallel
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
 UP = 2
 """The filter's number in the file."""
-COMPRESSION = 4
-"""zlib's level: faster than the usual 6, for a percent of the size."""
 BAND = 64
 """Rows that are compressed together."""
 ZLIB_HEADER = b"\x78\x5e"
@@ -33,24 +32,25 @@ LINEAR = ((b"gAMA", struct.pack(">I", 100000)),)
 def write_png(path: str | os.PathLike[str], picture: np.ndarray, linear: bool = False, threads: int = 1) -> None:
     """Write RGB or RGBA (height, width, 3 or 4), uint8 or uint16, alpha not multiplied in; `linear` if it is not sRGB."""
     with whole_file(path) as stream:
-        stream.write(SIGNATURE)
-        for name, data in _chunks(picture, linear, threads):
-            stream.write(struct.pack(">I", len(data)))
-            stream.write(name)
-            stream.write(data)
-            stream.write(struct.pack(">I", zlib.crc32(data, zlib.crc32(name))))
+        stream.write(beginning(picture, linear))
+        for data in compressed(picture, threads):
+            stream.write(chunk(b"IDAT", data))
+        stream.write(chunk(b"IEND", b""))
 
 
-def _chunks(picture: np.ndarray, linear: bool, threads: int) -> Iterator[tuple[bytes, bytes]]:
+def chunk(name: bytes, content: bytes) -> bytes:
+    """Return a chunk of a PNG with its size and sum."""
+    return b"".join([struct.pack(">I", len(content)), name, content, struct.pack(">I", zlib.crc32(content, zlib.crc32(name)))])
+
+
+def beginning(picture: np.ndarray, linear: bool = False) -> bytes:
+    """Return the first bytes of a PNG: what it is, and what its numbers mean."""
     height, width, channels = picture.shape
-    yield b"IHDR", struct.pack(">IIBBBBB", width, height, 8 * picture.itemsize, 6 if channels == 4 else 2, 0, 0, 0)
-    yield from LINEAR if linear else SRGB
-    for data in _compressed(picture, threads):
-        yield b"IDAT", data
-    yield b"IEND", b""
+    head = struct.pack(">IIBBBBB", width, height, 8 * picture.itemsize, 6 if channels == 4 else 2, 0, 0, 0)
+    return SIGNATURE + chunk(b"IHDR", head) + b"".join(chunk(*meaning) for meaning in (LINEAR if linear else SRGB))
 
 
-def _compressed(picture: np.ndarray, threads: int) -> list[bytes]:
+def compressed(picture: np.ndarray, threads: int = 1) -> list[bytes]:
     """Return the zlib stream of a picture, band by band."""
     height, tops = len(picture), range(0, len(picture), BAND)
     made: list[bytes] = [b""] * len(tops)
@@ -58,7 +58,7 @@ def _compressed(picture: np.ndarray, threads: int) -> list[bytes]:
 
     def work(band: int) -> None:
         rows = _filtered(picture, tops[band], min(tops[band] + BAND, height)).data
-        squeeze = zlib.compressobj(COMPRESSION, wbits=-zlib.MAX_WBITS)
+        squeeze = zlib.compressobj(wbits=-zlib.MAX_WBITS, strategy=zlib.Z_RLE)
         last = band == len(tops) - 1
         made[band] = squeeze.compress(rows) + squeeze.flush(zlib.Z_FINISH if last else zlib.Z_FULL_FLUSH)
         sums[band] = zlib.adler32(rows), rows.nbytes

@@ -196,3 +196,14 @@ def test_background_pictures(tmp_path):
         np.testing.assert_array_equal(np.asarray(opened), picture)
     np.testing.assert_array_equal(np.asarray(found.frame(1)), picture)
     np.testing.assert_allclose(read(light)["G"], ((picture[..., 1] / 255 + 0.055) / 1.055) ** 2.4, atol=2e-3)
+
+
+@pytest.mark.parametrize("deep", [False, True])
+def test_polygons_alone(tmp_path, deep):
+    """A picture without particles has the channels too: the depth of what it shows, and 0."""
+    nodes = {"box": {"type": "mesh_box"}, "wall": {"type": "polygons", "geometry": "box", "shading": "unlit"}}
+    image = {"from": "wall", "channels": ALL, "deep": deep, "bits": 32}
+    channels = read(cooked(tmp_path, {"rate": 0}, image, nodes=nodes))
+    middle = {name: np.atleast_1d(channel[16, 24]) for name, channel in channels.items()}
+    assert middle["Z"][0] == pytest.approx(4.5, rel=1e-5) and middle["A"][0] == 1
+    assert all(middle[name][0] == 0 for name in ("id", "stream", "velocity.X", "world_velocity.Z"))

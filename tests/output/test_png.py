@@ -117,11 +117,11 @@ def test_failing_writer_keeps_the_former_file(tmp_path, monkeypatch):
     write_png(path, PICTURE)
     before = path.read_bytes()
 
-    def full(picture, linear, threads):
-        yield b"IHDR", b"half"
+    def full(picture, threads):
+        yield b"half"
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(png, "_chunks", full)
+    monkeypatch.setattr(png, "compressed", full)
     with pytest.raises(OutputError, match=f"cannot write {path}: No space left on device"):
         write_png(path, PICTURE)
     assert [p.name for p in tmp_path.iterdir()] == ["x.png"] and path.read_bytes() == before
