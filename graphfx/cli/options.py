@@ -75,7 +75,9 @@ def limits(command: Any) -> Any:
     """Give a command the options that raise or lower limits; it gets `limits`, those that were stated."""
     shared: dict[str, Any] = {"expose_value": False, "callback": _keep_limit}
     number: dict[str, Any] = {"type": click.IntRange(1), "metavar": "N", **shared}
-    for option in (click.option("--limit-disk", type=Bytes(), metavar="SIZE", **shared,
+    for option in (click.option("--memory", type=Bytes(), metavar="SIZE", **shared,
+                                help="Memory to use, such as 1G: larger pictures are made in parts; what is free, if not given."),
+                   click.option("--limit-disk", type=Bytes(), metavar="SIZE", **shared,
                                 help="What all pictures may take on the disk, such as 500MB; what is free there, if not given."),
                    click.option("--limit-pixels", help="Pixels of a picture, at most.", **number),
                    click.option("--limit-particles", help="Particles of an emitter alive at once, at most.", **number)):

@@ -47,10 +47,12 @@ DeepSink = Callable[[dict[str, np.ndarray]], Callable[[Samples], None]]
 """Takes what deep samples hold of every particle, by channel, and returns what the samples are handed to."""
 
 
-def draw_all(image: ImagePlan, simulation: Simulation, frame: int, threads: int, deep: DeepSink | None = None) -> Film:
+def draw_all(
+    image: ImagePlan, simulation: Simulation, frame: int, threads: int, memory: int | None = None, deep: DeepSink | None = None
+) -> Film:
     """Return the picture of a frame with its channels; where it is deep, its samples go to `deep` instead."""
     if not image.channels:
-        return draw(image, simulation, frame, threads)
+        return draw(image, simulation, frame, threads, memory)
     made: list[Channels] = []
 
     def sampling(shown: list[Shown]) -> Callable[[Samples], None]:
@@ -60,7 +62,7 @@ def draw_all(image: ImagePlan, simulation: Simulation, frame: int, threads: int,
         made.append(Channels(columns, "depth" in image.channels, *image.size))
         return made[0].add
 
-    film = draw(image, simulation, frame, threads, sampling)
+    film = draw(image, simulation, frame, threads, memory, sampling)
     for channels in made:
         film.channels = channels.made()
     return film

@@ -14,6 +14,8 @@ from graphfx.graph.values import Keys, Literal, Value
 from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.pictures import ImagePlan, plain_value
 
+BASE = 200_000_000
+"""Bytes that graphfx takes without any particle: the interpreter, Numba, the kernels."""
 COMPRESSED = 0.25
 """About what is left of a picture of particles when it is compressed."""
 
@@ -28,12 +30,15 @@ class CookLimits:
     """Pixels of one picture."""
     disk: int | None = None
     """Bytes that the pictures may take together, as far as can be told; None: what is free."""
+    memory: int | None = None
+    """Bytes of memory that the process may take; pictures that need more are made patch by patch. None: what is free."""
 
 
 def check_limits(plan: Plan, limits: CookLimits) -> None:
     """Raise LimitError with everything that would pass a limit."""
     problems = [problem for emitter in plan.emitters.values() if (problem := _too_many(emitter, plan, limits))]
     problems += [problem for image in plan.images if (problem := _too_large(image, limits))]
+    problems += [problem for problem in [_too_much_memory(plan, limits)] if problem]
     if problems:
         raise LimitError(problems)
 
@@ -73,28 +78,50 @@ def _greatest(value: Value) -> float:
     return float(value.value) if isinstance(value, Literal) else 0.0
 
 
-def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:
+def _alive(emitter: EmitterPlan, plan: Plan) -> float:
+    """Return about how many particles of an emitter are alive at once; of what is spawned nothing can be told."""
     time = plan.flat.time
     begin, end = emitter.node.during or (-time.preroll, math.inf)
     span = max(min(end, (time.last - time.first) / time.fps) - max(begin, -time.preroll), 0.0)
     life = float(emitter.constants.get("life", span))
     given = emitter.node
     if given.node_type.role != "emit":
-        return None
+        return 0.0
     rated = "rate" in given.given or not ("count" in given.given or "vertices" in given.references)
     rate = _greatest(given.arguments["rate"]) if rated else 0.0
     every = _greatest(given.arguments["every"])
     bursts = 1 + (min(span, life) // every if every > 0 else 0.0)
-    count = rate * min(span, life) + _greatest(given.arguments["count"]) * bursts
+    return rate * min(span, life) + _greatest(given.arguments["count"]) * bursts
+
+
+def _bytes_each(emitter: EmitterPlan) -> int:
+    """Return the memory of one particle."""
+    return sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
+
+
+def _too_much_memory(plan: Plan, limits: CookLimits) -> Problem | None:
+    """Return that the particles and films alone would take more than the memory that is allowed."""
+    particles = sum(_alive(emitter, plan) * _bytes_each(emitter) for emitter in plan.emitters.values())
+    films = sum(16 * math.prod(image.size) for image in plan.images)
+    if limits.memory is None or particles + films + BASE <= limits.memory:
+        return None
+    return Problem(
+        f"about {in_bytes(particles + films + BASE)} of memory are needed, and {in_bytes(limits.memory)} are allowed; "
+        "allow more with --memory, or lower the rate, the count or the life of the particles",
+        notes=(f"particles {in_bytes(particles)}, pictures {in_bytes(films)}, graphfx itself {in_bytes(BASE)}",),
+    )
+
+
+def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:
+    count = _alive(emitter, plan)
     if count <= limits.particles:
         return None
-    bytes_each = sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
     return Problem(
         f"about {count:,.0f} particles would be alive at once, and the limit is {limits.particles:,}; "
         "lower the rate, the count or the life, or allow more with --limit-particles",
         emitter.node.location,
         f"nodes.{emitter.path}",
-        (f"they would take {count * bytes_each / 2**30:,.1f} GiB",),
+        (f"they would take {count * _bytes_each(emitter) / 2**30:,.1f} GiB",),
     )
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.cameras import camera_at
+from graphfx.cook.memory import working_memory
 from graphfx.cook.particles import Particles, padded
 from graphfx.cook.paths import Window
 from graphfx.cook.polygons import lighting_of
@@ -22,8 +23,14 @@ from graphfx.render.samples import Samples
 Sampling = Callable[[list[Shown]], Callable[[Samples], None]]
 
 
-def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int, sampling: Sampling | None = None) -> Film:
-    """Return the picture of a frame; `sampling` is given all streaks and whose they are, and returns what takes their samples."""
+def draw(
+    image: ImagePlan, simulation: Simulation, frame: int, threads: int, memory: int | None = None,
+    sampling: Sampling | None = None,
+) -> Film:
+    """Return the picture of a frame, the whole process taking no more than so many bytes of memory.
+
+    `sampling` is given all streaks and whose they are, and returns what takes their samples.
+    """
     window = window_of(image, simulation, frame)
     cameras = camera_at(image.camera, window.closing, frame), camera_at(image.camera, window.opening, frame)
     shown = [
@@ -40,7 +47,11 @@ def draw(image: ImagePlan, simulation: Simulation, frame: int, threads: int, sam
     polygons = [simulation.polygons.polygons(node, window.closing, frame) for node in image.polygons]
     lighting = lighting_of(image, window.closing, frame) if polygons else NO_LIGHTS
     sampler = sampling(shown) if sampling else None
-    return render(streams, *cameras, *image.size, threads, sampler=sampler, polygons=polygons, lighting=lighting)
+    width, height = image.size
+    return render(
+        streams, *cameras, width, height, threads, sampler=sampler, polygons=polygons, lighting=lighting,
+        memory=working_memory(memory, width * height),
+    )
 
 
 def window_of(image: ImagePlan, simulation: Simulation, frame: int) -> Window:

@@ -33,19 +33,21 @@ from graphfx.render.film import Film
 class Writer:
     """Draws and writes the pictures of a plan, with several threads; background pictures are read once, at the beginning."""
 
-    def __init__(self, plan: Plan, threads: int):
-        self.plan, self.threads = plan, threads
+    def __init__(self, plan: Plan, threads: int, memory: int | None = None):
+        self.plan, self.threads, self.memory = plan, threads, memory
         self.backgrounds = backgrounds_of(plan)
 
     def draw(self, file: Path | None, image: ImagePlan, simulation: Simulation, frame: int) -> Film:
         """Return the picture of a frame; where it is deep and a file, write its samples there as they come."""
         if file is None or not image.value("deep"):
-            return draw_all(image, simulation, frame, self.threads)
+            return draw_all(image, simulation, frame, self.threads, self.memory)
         types = deep_types(columns_of(image), bits_of(image))
         exposure = float(image.value("exposure"))
         make_folder(file)
         with deep_file(file, *image.size, types, attributes_of(image, simulation, frame), self.threads) as deep:
-            return draw_all(image, simulation, frame, self.threads, lambda columns: deep_adder(deep, columns, exposure))
+            return draw_all(
+                image, simulation, frame, self.threads, self.memory, lambda columns: deep_adder(deep, columns, exposure)
+            )
 
     def write(self, file: Path, image: ImagePlan, film: Film, attributes: dict[str, Any]) -> None:
         """Write a picture, unless it is deep and there already."""

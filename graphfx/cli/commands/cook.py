@@ -70,7 +70,9 @@ def typed(context: click.Context) -> list[str]:
             again += ["--size", "x".join(str(part) for part in value if part is not None)]
         elif option.name == "threads" and value is not None:
             again += ["--threads", str(value)]
-    return again + [part for name, limit in context.params.get("limits", {}).items() for part in (f"--limit-{name}", str(limit))]
+    for name, limit in context.params.get("limits", {}).items():
+        again += ["--memory" if name == "memory" else f"--limit-{name}", str(limit)]
+    return again
 
 
 def ready(out: Path) -> None:
