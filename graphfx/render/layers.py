@@ -1,7 +1,7 @@
 """Layers: the fragments of polygons, made tile by tile, in order for each pixel.
 
-A fragment has the samples in which its triangle is seen, and key, opacity and colour of the triangle at their mean
-place. A pixel's fragments are in the order of (key, triangle). Behind a group of pixels that are covered whole, in all
+A fragment has the samples in which its triangle is seen, and the triangle's key, opacity and colour there. A pixel's
+fragments are in the order of (key, triangle). Behind a group of pixels that are covered whole, in all
 their samples, by fragments of opacity exactly 1, nothing is seen: the farthest of their keys is its limit.
 """
 
@@ -109,9 +109,9 @@ def _shade(triangles, looks, left, top, made, count):
     """Give fragments their keys and looks."""
     for i in range(count):
         across, down = middle(np.int64(made.masks[i]))
-        x = left + made.pixels[i] % TILE_WIDTH + across
-        y = top + made.pixels[i] // TILE_WIDTH + down
-        made.keys[i] = shade(triangles, looks, made.triangles[i], x, y, made.values[i]) + np.float32(0.0)
+        x, y = left + made.pixels[i] % TILE_WIDTH, top + made.pixels[i] // TILE_WIDTH
+        centre, mean = (x + 0.5, y + 0.5), (x + across, y + down)
+        made.keys[i] = shade(triangles, looks, made.triangles[i], centre, mean, made.values[i]) + np.float32(0.0)
 
 
 @inner

@@ -33,7 +33,7 @@ class Polygons:
     | `triangles` | | (m, 3) numbers of vertices, counter-clockwise seen from outside |
     | `normals` | | (n, 3) of the vertices, for `smooth` |
     | `coordinates` | | (m, 3 corners, 2): places (u, v) in the maps, v upwards; they repeat beyond 0 to 1 |
-    | `color` | linear RGB | one (r, g, b), or (n, 3) of the vertices |
+    | `color` | linear RGB | one (r, g, b), or (n, 3) of the vertices; at least 0 |
     | `opacity` | 0 to 1 | one number, or (n,) of the vertices; exactly 1 hides what is behind |
     | `shading` | | `flat`: one normal for a triangle; `smooth`: normals of the vertices; `unlit`: no light needed |
     | `color_map`, `opacity_map` | | multiply colour and opacity; the alpha of a colour map multiplies opacity too |

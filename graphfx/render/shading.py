@@ -1,9 +1,12 @@
-"""What a triangle looks like at one point of the screen: key, opacity and lit colour.
+"""What a triangle looks like in a pixel: key, opacity and lit colour.
 
     q_i = b_i / w_i,  S = sum_i q_i,  lambda_i = q_i / S      b: barycentric on the screen; orthographic: w = 1
     d lambda_i / dx = (d q_i / dx - lambda_i dS / dx) / S     gives the slope of the texture's coordinates
     key = k_0 + (g_x (x - x_0) + g_y (y - y_0)), between the corners' keys, in float64; rounded to float32
 
+The key is that at the mean place of the samples that are seen. The look is that at the pixel's centre, also a little
+beyond the edge (lambda_i >= -1/4), so that two triangles of one surface look alike where they meet in a pixel; farther
+beyond, where small triangles would be seen as they are nowhere, it is that at the mean place too.
 See polygons.py for light, textures.py for maps.
 """
 
@@ -21,6 +24,8 @@ from graphfx.render.triangles import GREATEST, LOOK
 
 COLOR_MAP, COLOR_LEVELS, OPACITY_MAP, OPACITY_LEVELS, LIT = 0, 1, 2, 3, 4
 """Places in a look's row: the first level and the number of levels of its maps, 0 where it has none, and whether it is lit."""
+BEYOND = -0.25
+"""Least weight of a corner at the pixel's centre for which the look is taken there."""
 F = np.float32
 
 
@@ -88,19 +93,34 @@ def middle(bits):
 
 
 @inner
-def _weights(place, plane, x, y, perspective):
-    """Return the corners' weights at a point and their derivatives along x and along y."""
+def _parts(plane, inverses, x, y, least):
+    """Return q_i of the corners at a point, b_i being at least `least`."""
     across, down = x - plane.x, y - plane.y
     b1, b2 = across * plane.b1x + down * plane.b1y, across * plane.b2x + down * plane.b2y
+    return max(1.0 - b1 - b2, least) * inverses[0], max(b1, least) * inverses[1], max(b2, least) * inverses[2]
+
+
+@inner
+def _seen_from_centre(parts):
+    """Return whether the weights that belong to these parts are those of a point that is not too far beyond."""
+    total = parts[0] + parts[1] + parts[2]
+    return total > 0.0 and min(parts[0], min(parts[1], parts[2])) >= BEYOND * total
+
+
+@inner
+def _weights(place, plane, centre, mean, perspective):
+    """Return the corners' weights, at the pixel's centre or at the samples' mean place, and their derivatives along x and y."""
     i0, i1, i2 = 1.0, 1.0, 1.0
     if perspective:
         i0, i1, i2 = -place[6], -place[7], -place[8]
-    q0, q1, q2 = max(1.0 - b1 - b2, 0.0) * i0, max(b1, 0.0) * i1, max(b2, 0.0) * i2
-    total = q0 + q1 + q2
+    q = _parts(plane, (i0, i1, i2), centre[0], centre[1], -np.inf)
+    if not _seen_from_centre(q):
+        q = _parts(plane, (i0, i1, i2), mean[0], mean[1], 0.0)
+    total = q[0] + q[1] + q[2]
     if not total > 0.0:
         return (1.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
     inverse = 1.0 / total
-    w = q0 * inverse, q1 * inverse, q2 * inverse
+    w = q[0] * inverse, q[1] * inverse, q[2] * inverse
     d0, d1, d2 = -(plane.b1x + plane.b2x) * i0, plane.b1x * i1, plane.b2x * i2
     s = d0 + d1 + d2
     wx = (d0 - w[0] * s) * inverse, (d1 - w[1] * s) * inverse, (d2 - w[2] * s) * inverse
@@ -146,15 +166,18 @@ def _maps(looks, row, places, weights):
 
 @inner
 def _bounded(value):
-    return F(min(max(value, -GREATEST), GREATEST))
+    return F(min(max(value, 0.0), GREATEST))
 
 
 @inner
-def shade(triangles, looks, t, x, y, values):
-    """Write the opacity, red, green and blue of triangle t at a point of the screen to `values`; return its key."""
+def shade(triangles, looks, t, centre, mean, values):
+    """Write the opacity, red, green and blue of triangle t to `values`; return its key.
+
+    `centre` is that of the pixel, `mean` the mean place of the samples that are seen.
+    """
     place, look, row = triangles.places[t], triangles.looks[t], looks.rows[triangles.look[t]]
     plane = plane_of(place)
-    weights = _weights(place, plane, x, y, looks.perspective)
+    weights = _weights(place, plane, centre, mean, looks.perspective)
     w, _, _ = weights
     red, green, blue = _mixed(look, 3, LOOK, w), _mixed(look, 4, LOOK, w), _mixed(look, 5, LOOK, w)
     opacity = _mixed(look, 6, LOOK, w)
@@ -166,4 +189,4 @@ def shade(triangles, looks, t, x, y, values):
         red, green, blue = red * light[0], green * light[1], blue * light[2]
     values[0] = F(1.0) if triangles.opaque[t] else F(min(max(opacity, 0.0), 1.0))
     values[1], values[2], values[3] = _bounded(red), _bounded(green), _bounded(blue)
-    return F(min(max(key_at(plane, x, y), plane.nearest), plane.farthest))
+    return F(min(max(key_at(plane, mean[0], mean[1]), plane.nearest), plane.farthest))

@@ -36,6 +36,7 @@ class Piece:
     whole: np.ndarray
     polygons: Any
     number: int
+    perspective: bool
 
     @property
     def turn(self) -> float:
@@ -62,6 +63,12 @@ class Piece:
     def key(self, x, y):
         gx, gy = self.gradient()
         return self.keys[0] + (gx * (x - self.corners[0, 0]) + gy * (y - self.corners[0, 1]))
+
+    def point_of_look(self, x, y, px, py):
+        """Return the pixel's centre (x, y), or the samples' mean place where that is too far beyond the triangle."""
+        inverse = -self.keys if self.perspective else np.ones(3)
+        parts = np.linalg.solve(np.vstack([self.corners.T, np.ones(3)]), [x, y, 1.0]) * inverse
+        return (x, y) if parts.sum() > 0 and parts.min() >= -0.25 * parts.sum() else (px, py)
 
     def sample_keys(self, x, y):
         gx, gy = self.gradient()
@@ -108,7 +115,8 @@ def pieces_of(polygons, camera, width, height):
         keys = [-1 / corner[2] if camera.perspective else corner[2] for corner in corners]
         for j in range(1, len(corners) - 1):
             at = [0, j, j + 1]
-            piece = Piece(np.array([screen[k] for k in at]), np.array([keys[k] for k in at]), whole, polygons, number)
+            piece = Piece(np.array([screen[k] for k in at]), np.array([keys[k] for k in at]), whole, polygons, number,
+                          camera.perspective)
             if piece.turn != 0 and (polygons.double_sided or piece.turn < 0):
                 found.append(piece)
     return found, dropped
@@ -156,7 +164,7 @@ def look_at(piece, x, y, camera, lighting, width, height):
     polygons, triangle = piece.polygons, piece.polygons.triangles[piece.number]
     w = weights_at(piece, x, y, camera, width, height)
     color = w @ np.broadcast_to(polygons.color, (len(polygons.vertices), 3))[triangle]
-    opacity = np.clip(w @ np.clip(np.broadcast_to(polygons.opacity, len(polygons.vertices))[triangle], 0, 1), 0, 1)
+    opacity = w @ np.clip(np.broadcast_to(polygons.opacity, len(polygons.vertices))[triangle], 0, 1)
     if polygons.color_map is not None or polygons.opacity_map is not None:
         step = 1e-4
         at = [weights_at(piece, x + dx, y + dy, camera, width, height) @ polygons.coordinates[piece.number]
@@ -177,7 +185,7 @@ def look_at(piece, x, y, camera, lighting, width, height):
         for direction, strength in light_rows(lighting, camera):
             light += strength * max(-(normal @ direction) / np.linalg.norm(direction), 0)
         color = color * light
-    return opacity, color
+    return np.clip(opacity, 0, 1), np.maximum(color, 0)
 
 
 def fragments_of(given, lighting, camera, width, height):
@@ -204,6 +212,7 @@ def fragments_of(given, lighting, camera, width, height):
             samples = seen[row, column]
             px, py = np.array([column, row]) + OFFSETS[samples].mean(axis=0)
             key = F(np.clip(piece.key(px, py), piece.keys.min(), piece.keys.max()))
+            px, py = piece.point_of_look(column + 0.5, row + 0.5, px, py)
             look = look_at(piece, px, py, camera, lighting, width, height)
             pixels[row][column].append(Fragment(key, rank, samples, *look))
     for row in pixels:
