@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.checking import Checking, declared, listed, nearest
@@ -160,7 +161,7 @@ def check_references(checking: Checking, graph: Graph, meshes: Iterable[Literal]
             check_stream(checking, graph, reference, entry.role in PICTURES)
         parameters = entry.group.params if entry.group else entry.node_type.parameters if entry.node_type else {}
         for name, (target, location) in entry.references.items():
-            parameter = parameters[name.partition("[")[0]]
+            parameter = replace(parameters[name.partition("[")[0]], name=name)
             _check_target(checking, graph, parameter, target, location, f"{entry.path}.{name}", entry.node_type)
         if entry.kind == "geometry":
             _check_geometry(checking, entry)
