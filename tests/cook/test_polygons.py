@@ -165,7 +165,7 @@ def test_damaged_texture_is_told(graph, tmp_path):
     """One that ends too early is found when it is read."""
     picture(tmp_path, "wood.png", np.random.default_rng(1).integers(0, 255, (64, 64, 3), np.uint8))
     (tmp_path / "wood.png").write_bytes((tmp_path / "wood.png").read_bytes()[:3000])
-    with pytest.raises(GraphError, match="the picture wood.png cannot be read"):
+    with pytest.raises(GraphError, match=r"the picture wood\.png cannot be read"):
         pixel(graph({"color_map": "wood.png"}))
 
 
@@ -174,8 +174,8 @@ def test_texture_that_is_too_large_is_told(graph, tmp_path, monkeypatch):
     picture(tmp_path, "wood.png", np.zeros((20, 30), np.uint8))
     monkeypatch.setattr(textures, "MOST_TEXELS", 599)
     assert told(graph({"color_map": "wood.png"})) == [
-        "<here>/scene.json:1:225: nodes.wall.color_map: the picture wood.png has 30 x 20 pixels, 600; the most of a texture is 599; "
-        "make it smaller"
+        "<here>/scene.json:1:225: nodes.wall.color_map: the picture wood.png has 30 x 20 pixels, 600; the most of a texture is "
+        "599; make it smaller"
     ]
 
 
@@ -185,8 +185,8 @@ def test_mesh_without_coordinates_takes_no_map(graph, tmp_path):
     picture(tmp_path, "wood.png", np.zeros((2, 2), np.uint8))
     (tmp_path / "plain.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     assert told(graph({"color_map": "wood.png"}, face={"type": "mesh_file", "file": "plain.obj"})) == [
-        "<here>/scene.json:1:74: nodes.face: 'wall' puts a color_map on it, and it has no coordinates that say where; take a shape, "
-        "or a file that has them (vt in OBJ)"
+        "<here>/scene.json:1:74: nodes.face: 'wall' puts a color_map on it, and it has no coordinates that say where; take a "
+        "shape, or a file that has them (vt in OBJ)"
     ]
 
 
