@@ -19,6 +19,7 @@ from graphfx.render.film import Film
 from graphfx.render.lines import draw_lines
 from graphfx.render.renderer import NO_LIGHTS, render
 from graphfx.render.samples import Samples
+from graphfx.render.wires import wires_of
 
 Sampling = Callable[[list[Shown]], Callable[[Samples], None]]
 
@@ -42,9 +43,9 @@ def draw(
         )
     ]
     streams = [each.streaks for each in shown]
-    if image.node.node_type.role == "preview":
-        return draw_lines(streams, *cameras, *image.size, threads)
     polygons = [simulation.polygons.polygons(node, window.closing, frame) for node in image.polygons]
+    if image.node.node_type.role == "preview":
+        return draw_lines([*map(wires_of, polygons), *streams], *cameras, *image.size, threads)
     lighting = lighting_of(image, window.closing, frame) if polygons else NO_LIGHTS
     sampler = sampling(shown) if sampling else None
     width, height = image.size

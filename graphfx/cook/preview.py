@@ -121,8 +121,10 @@ def _everything(flat: FlatGraph, library: Library, nodes: dict[str, FlatNode]) -
     if not makers:
         message = "the graph has no picture and no particles; give it an enabled node of type 'emit'"
         raise GraphError(Problem(message, Location(flat.file), "nodes"))
+    shapes = tuple(path for path, node in nodes.items() if node.node_type.role == "polygons" and node.enabled)
     nodes["(camera)"] = FlatNode("(camera)", library["camera"], arguments=_defaults(library, "camera"))
-    return FlatNode("(preview)", library["preview"], makers, _defaults(library, "preview"), references={"camera": "(camera)"})
+    arguments = _defaults(library, "preview")
+    return FlatNode("(preview)", library["preview"], makers + shapes, arguments, references={"camera": "(camera)"})
 
 
 def _defaults(library: Library, name: str) -> dict[str, Value]:

@@ -1,6 +1,7 @@
 """Quick pictures: each particle a line from head to tail in its head's colour, one pixel wide, not sorted.
 
-The line is longer than head to tail by half a pixel at each end, so that a still particle is a dot of one pixel. In each
+The line is longer than head to tail by half a pixel at each end, so that a still particle is a dot of one pixel; but not
+where it goes on in another, as after a bounce. In each
 column of pixels that it crosses (in each row, where it is steep) the light that belongs there is shared out among the
 three nearest pixels,
 
@@ -42,6 +43,8 @@ PLACES = tuple(range(6))
 """The columns of streaks that say where they are: head and tail."""
 LOOKS = (8, 9, 10, 14)
 """Those that say how they look: the head's colour and opacity."""
+JOINED, HEAD_MOMENT, TAIL_MOMENT = 18, 19, 20
+"""Whether a line goes on in another, and when its ends are seen."""
 BRIGHTEST = np.float32(1e30)
 """Colours are kept within this, so that sums of them stay finite."""
 MARGIN = 2
@@ -125,10 +128,13 @@ def _read(columns, c, i):
 
 
 @inner
-def _transformed(matrix, row, columns, first, i):
-    """Return one coordinate of the point in columns first ... first + 2, on the screen times its depth."""
+def _transformed(view, row, columns, first, moment, i):
+    """Return one coordinate of the point in columns first ... first + 2, on the screen times its depth, seen at a moment."""
     x, y, z = _read(columns, first, i), _read(columns, first + 1, i), _read(columns, first + 2, i)
-    return matrix[row, 0] * x + matrix[row, 1] * y + matrix[row, 2] * z + matrix[row, 3]
+    head, tail = view.head, view.tail
+    late = head[row, 0] * x + head[row, 1] * y + head[row, 2] * z + head[row, 3]
+    early = tail[row, 0] * x + tail[row, 1] * y + tail[row, 2] * z + tail[row, 3]
+    return (1.0 - moment) * late + moment * early
 
 
 @inner
@@ -143,12 +149,13 @@ def _within(start, stop, from_, way, low, high):
 @inner
 def _ends(columns, i, view):
     """Return (seen, x, y, x, y): the ends of a particle's line in the picture, half a pixel beyond head and tail."""
-    depth0, depth1 = _transformed(view.head, 2, columns, 0, i), _transformed(view.tail, 2, columns, 3, i)
+    late, early = _read(columns, HEAD_MOMENT, i), _read(columns, TAIL_MOMENT, i)
+    depth0, depth1 = _transformed(view, 2, columns, 0, late, i), _transformed(view, 2, columns, 3, early, i)
     first, last = _within(0.0, 1.0, depth0, depth1 - depth0, view.near, view.far)
     if last < first:
         return False, 0.0, 0.0, 0.0, 0.0
-    x, way_x = _transformed(view.head, 0, columns, 0, i), _transformed(view.tail, 0, columns, 3, i)
-    y, way_y = _transformed(view.head, 1, columns, 0, i), _transformed(view.tail, 1, columns, 3, i)
+    x, way_x = _transformed(view, 0, columns, 0, late, i), _transformed(view, 0, columns, 3, early, i)
+    y, way_y = _transformed(view, 1, columns, 0, late, i), _transformed(view, 1, columns, 3, early, i)
     way_x, way_y = way_x - x, way_y - y
     x0, y0, x1, y1 = x + first * way_x, y + first * way_y, x + last * way_x, y + last * way_y
     if view.perspective:
@@ -157,9 +164,12 @@ def _ends(columns, i, view):
         x0, y0, x1, y1 = x0 / near, y0 / near, x1 / far, y1 / far
     dx, dy = x1 - x0, y1 - y0
     length = math.sqrt(dx * dx + dy * dy)
-    more_x = 0.5 * dx / length if length > 1e-6 else 0.5
-    more_y = 0.5 * dy / length if length > 1e-6 else 0.0
-    x0, y0, dx, dy = x0 - more_x, y0 - more_y, dx + 2.0 * more_x, dy + 2.0 * more_y
+    along_x = dx / length if length > 1e-6 else 1.0
+    along_y = dy / length if length > 1e-6 else 0.0
+    joined = np.int64(_read(columns, JOINED, i))
+    before, after = 0.0 if joined & 1 and first == 0.0 else 0.5, 0.0 if joined & 2 and last == 1.0 else 0.5
+    x0, y0 = x0 - before * along_x, y0 - before * along_y
+    dx, dy = dx + (before + after) * along_x, dy + (before + after) * along_y
     start, stop = _within(0.0, 1.0, x0, dx, -OUTSIDE, view.width + OUTSIDE)
     start, stop = _within(start, stop, y0, dy, -OUTSIDE, view.height + OUTSIDE)
     return stop > start, x0 + start * dx, y0 + start * dy, x0 + stop * dx, y0 + stop * dy

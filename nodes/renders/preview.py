@@ -3,8 +3,8 @@
     alpha of a line, summed over its pixels = opacity (length + 1)
 
 Lines are one pixel wide whatever the radius, and nothing is sorted by depth: a pixel shows the mean colour of its
-lines. An entry of `from` is a node's id, or `{"stream": id, "blend": "over" | "add"}`. `graphfx preview` draws the
-pictures of any graph so. [Sims 1990, 3.5]
+lines. Of polygons the edges are drawn, but not within flat faces. An entry of `from` is a node's id, or
+`{"stream": id, "blend": "over" | "add"}`. `graphfx preview` draws the pictures of any graph so. [Sims 1990, 3.5]
 """
 
 from graphfx.math import Vec3
@@ -15,7 +15,8 @@ from graphfx.node import language, param
 def preview(
     camera: str = param(type="node", choices=("camera",), required=True, doc="The camera that it is seen through."),
     size: list = param((640, 360), type="list", min=1, max=65536, doc="Width and height in pixels."),
-    shutter: float = param(0.5, unit="frames", min=0, max=1, doc="How long the shutter is open; 0 draws dots."),
+    shutter: float = param(0.5, unit="frames", min=0, max=4, doc="How long the shutter is open; 0 draws dots."),
+    phase: float = param(0.0, unit="frames", min=0, max=4, doc="How long before the frame's time the shutter closes."),
     background: Vec3 = param((0, 0, 0), type="color", min=0, doc="Colour behind the particles."),
     background_image: str = param("", type="path", doc="A picture behind the particles, cut to the frame's shape."),
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),

@@ -49,6 +49,25 @@ def test_dot_where_nothing_moves():
     assert ((alpha * columns).sum(), (alpha * rows).sum()) == pytest.approx((20.25, 30.75), abs=1e-4)
 
 
+def test_pieces_of_a_way():
+    """Two pieces that go on in one another are the line that they are parts of."""
+    head, knee, tail = (60.3, 40.1), (31.7, 28.4), (11.2, 20.0135)
+    whole = drawn(line(head, tail, head_opacity=0.5)).pixels[..., 3]
+    first, second = line(head, knee, head_opacity=0.5, joined=2.0), line(knee, tail, head_opacity=0.5, joined=1.0)
+    parts = drawn(first, second).pixels[..., 3]
+    assert parts.sum(dtype=float) == pytest.approx(whole.sum(dtype=float), rel=2e-3)
+    assert np.abs(parts - whole).max() < 0.15
+
+
+def test_ends_are_seen_at_their_moments():
+    """A point seen between the two cameras is where it is half way between what they see."""
+    moved = Camera(**{**vars(PIXELS), "position": (WIDTH / 2 + 8, HEIGHT / 2, 0.0), "target": (WIDTH / 2 + 8, HEIGHT / 2, 1.0)})
+    for moment, x in ((0.0, 40.5), (0.5, 36.5), (1.0, 32.5)):
+        still = line((40.5, 20.5), (40.5, 20.5), head_moment=moment, tail_moment=moment)
+        alpha = draw_lines([still], PIXELS, moved, WIDTH, HEIGHT).pixels[..., 3]
+        assert alpha[20, int(x)] == pytest.approx(1.0, abs=1e-5)
+
+
 def test_no_flicker():
     """A dot that moves by parts of a pixel keeps its light to a thousandth."""
     places = [(20 + 0.037 * k, 30 + 0.013 * k) for k in range(40)]
