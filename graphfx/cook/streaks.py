@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -41,10 +41,10 @@ def streaks_of(
     `moving` says that the camera does not stand still, so that the streaks must tell their times.
     """
     lives = lives_of(particles, window)
-    rows = np.arange(particles.store.count) if selected is None else selected
+    drawing = _Drawing(particles, look, window, lives, moving)
+    rows = drawing.everyone if selected is None else selected
     if lives is not None:
         rows = rows[lives.share[rows] > 0]
-    drawing = _Drawing(particles, look, window, lives, moving)
     with np.errstate(invalid="ignore", over="ignore"):
         made = drawing.streaks(rows)
     return [Shown(streaks, particles, whose, stream) for streaks, whose in made]
@@ -59,6 +59,11 @@ class _Drawing:
     window: Window
     lives: Lives | None
     moving: bool
+    everyone: np.ndarray = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Number the rows."""
+        self.everyone = np.arange(self.particles.store.count)
 
     def streaks(self, rows: np.ndarray) -> list[tuple[Streaks, np.ndarray]]:
         """Return streaks with the rows that they are of."""
@@ -71,7 +76,7 @@ class _Drawing:
         ways = self._ways(bent)
         straight = are_straight(ways, self._radius(bent))
         if kept:
-            plain = rows[~np.isin(rows, bent[~straight])]
+            plain = rows if straight.all() else rows[~np.isin(rows, bent[~straight])]
             made = [(self._whole(plain, self._column("position", plain), self._column(instants[-1].column, plain)), plain)]
         else:
             ends = [ways.places[:, end][:, straight] for end in (0, -1)]
@@ -109,7 +114,7 @@ class _Drawing:
             value = self.particles.value(name)
             return np.repeat(np.array(value, np.float32)[:, None], len(rows), axis=1) if name == "position" else value
         arrays = store.column(name)
-        if len(rows) < store.count:
+        if rows is not self.everyone:
             arrays = tuple(array[rows] for array in arrays)
         return arrays if len(arrays) == 3 else arrays[0]
 

@@ -93,6 +93,22 @@ def test_many_bounces_keep_the_first_and_the_last():
     assert sum(each[2] for each in told) == pytest.approx(1, abs=1e-3)
 
 
+def test_pieces_look_as_their_own_particle():
+    """Each piece has the radius, colour and opacity of the particle whose way it is part of."""
+    own = {"radius": {"rand": [0.02, 0.06]}, "color": {"rand": [[0, 0, 0], [1, 1, 1]]}, "position": {"in_box": {"min": [-1, 1, 0]}}}
+    found = scene([{"type": "gravity"}, FLOOR], {"count": 20, "set": LOOK | own}, 2.5)
+    simulation = found.simulation()
+    for _ in simulation.frames(4):
+        pass
+    sky, window = simulation.particles["sky"], window_of(found.plan.images[0], simulation, 4)
+    whole = {name: np.stack(sky.store.column(name)) for name in ("radius", "color", "position")}
+    for shown in streaks_of(sky, None, {}, window, False):
+        if shown.streaks.count:
+            np.testing.assert_array_equal(np.atleast_2d(shown.streaks.head_radius), whole["radius"][:, shown.rows])
+            np.testing.assert_array_equal(np.stack(shown.streaks.head_color), whole["color"][:, shown.rows])
+    assert shown.streaks.count > 40 and (np.diff(shown.rows) >= 0).all()
+
+
 def test_bends_that_do_not_show_cost_nothing():
     """A hit that a straight way passes within half a radius is left out; a large ball that jumps a little is one streak."""
     emit = {"count": 1, "set": LOOK | {"radius": 2.5}}
