@@ -3,7 +3,7 @@
 A way goes through the places of a particle at known times: now, at the instants that are kept, at its hits; from its
 birth or the shutter's opening to its end or the shutter's closing. Between them it is straight and even. It is drawn
 as one streak if at all these times the straight, even way from its first place to its last is within half a radius
-of it, and else as a piece from each place to the next. Where two pieces go on nearly straight they are joined.
+of it, and else as a piece from each place to the next. Where two pieces go on without a sharp turn they are joined.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ from graphfx.plan.shutter import EDGE, Instant
 
 NEAR = 0.5
 """Radii within which a straight way will do."""
-STRAIGHT = 0.9
-"""Cosine of the angle up to which pieces go on straight."""
+STRAIGHT = {"exposed": 0.7, "solid": -0.9}
+"""Cosine of the angle up to which a piece goes on in the next: where a way turns back, its light is seen twice, but a solid
+streak is one body."""
 
 
 class Window(NamedTuple):
@@ -159,7 +160,10 @@ def are_straight(ways: Ways, radius: np.ndarray | float) -> np.ndarray:
 
 
 class Pieces(NamedTuple):
-    """Pieces of ways: whose they are, by place among the ways; their ends (3, n), and when these are [s]; and their joints."""
+    """Pieces of ways: whose they are, by place among the ways; their ends (3, n), and when these are [s]; and their joints.
+
+    `ahead` and `behind` are the other ends of the pieces in which a piece goes on, at its head and at its tail.
+    """
 
     owner: np.ndarray
     head: np.ndarray
@@ -167,26 +171,35 @@ class Pieces(NamedTuple):
     head_time: np.ndarray
     tail_time: np.ndarray
     joined: np.ndarray
+    ahead: np.ndarray
+    behind: np.ndarray
+    ahead_time: np.ndarray
+    behind_time: np.ndarray
 
     def chosen(self, which: np.ndarray) -> Pieces:
         """Return some of them."""
-        return Pieces(
-            self.owner[which], self.head[:, which], self.tail[:, which], self.head_time[which], self.tail_time[which],
-            self.joined[which],
-        )
+        return Pieces(*(column[..., which] for column in self))
 
 
-def pieces_of(ways: Ways) -> Pieces:
-    """Return the pieces of ways, those of one after another, the latest first; what takes no time is left out."""
+def pieces_of(ways: Ways, straight: float) -> Pieces:
+    """Return the pieces of ways, those of one after another, the latest first; what takes no time is left out.
+
+    Two go on in each other if the cosine of the angle between them is more than `straight`.
+    """
     taken = ways.times[:-1] > ways.times[1:]
     owner, number = np.nonzero(taken.T)
     head, tail = ways.places[:, number, owner], ways.places[:, number + 1, owner]
     way = tail - head
     length = np.sqrt((way**2).sum(axis=0))
     follows = owner[1:] == owner[:-1]
-    straight = (way[:, 1:] * way[:, :-1]).sum(axis=0) > STRAIGHT * length[1:] * length[:-1]
-    joint = follows & straight & (length[1:] > 0) & (length[:-1] > 0)
+    joint = follows & ((way[:, 1:] * way[:, :-1]).sum(axis=0) > straight * length[1:] * length[:-1])
+    joint &= (length[1:] > 0) & (length[:-1] > 0)
     joined = np.zeros(len(owner), np.float32)
     joined[1:] += joint
     joined[:-1] += 2 * joint
-    return Pieces(owner, head, tail, ways.times[number, owner], ways.times[number + 1, owner], joined)
+    head_time, tail_time = ways.times[number, owner], ways.times[number + 1, owner]
+    last = len(owner) - 1
+    before, after = np.maximum(np.arange(last + 1) - 1, 0), np.minimum(np.arange(last + 1) + 1, last)
+    return Pieces(
+        owner, head, tail, head_time, tail_time, joined, head[:, before], tail[:, after], head_time[before], tail_time[after]
+    )

@@ -9,6 +9,7 @@ import numpy as np
 
 from graphfx.cook.particles import Particles
 from graphfx.cook.paths import (
+    STRAIGHT,
     Lives,
     Pieces,
     Ways,
@@ -83,7 +84,9 @@ class _Drawing:
             made = [(self._whole(bent[straight], *ends), bent[straight])]
         if straight.all():
             return made
-        pieces = pieces_of(Ways(ways.times[:, ~straight], ways.places[:, :, ~straight]))
+        pieces = pieces_of(
+            Ways(ways.times[:, ~straight], ways.places[:, :, ~straight]), STRAIGHT[self.look.get("streak", "exposed")]
+        )
         return [*made, self._in_pieces(bent[~straight], self._seen(pieces))]
 
     def _ways(self, rows: np.ndarray) -> Ways:
@@ -127,12 +130,12 @@ class _Drawing:
         tails = {name: self._column(f"tail.{name}", rows) for name in heads if f"tail.{name}" in self.particles.store.columns}
         return {f"head_{name}": value for name, value in heads.items()} | {f"tail_{name}": value for name, value in tails.items()}
 
-    def _moments(self, head: Any, tail: Any) -> dict[str, Any]:
+    def _moments(self, head: Any, tail: Any, ends: tuple[str, str] = ("head", "tail")) -> dict[str, Any]:
         """Return when the ends of streaks are seen, if that matters."""
         if not self.moving or self.window.length <= 0:
             return {}
         moments = [((self.window.closing - time) / self.window.length).astype(np.float32) for time in (head, tail)]
-        return {"head_moment": moments[0], "tail_moment": moments[1]}
+        return {f"{end}_moment": moment for end, moment in zip(ends, moments, strict=True)}
 
     def _share(self, rows: np.ndarray) -> Any:
         return 1.0 if self.lives is None else self.lives.share[rows].astype(np.float32)
@@ -157,7 +160,9 @@ class _Drawing:
         part = (pieces.head_time - pieces.tail_time) / length
         return Streaks(
             head=pieces.head, tail=pieces.tail, **looks, share=self._share(whose), part=part.astype(np.float32),
-            joined=pieces.joined, **self._moments(pieces.head_time, pieces.tail_time), **self.look,
+            joined=pieces.joined, ahead=pieces.ahead, behind=pieces.behind,
+            **self._moments(pieces.head_time, pieces.tail_time),
+            **self._moments(pieces.ahead_time, pieces.behind_time, ("ahead", "behind")), **self.look,
         ), whose
 
 

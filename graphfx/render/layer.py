@@ -35,6 +35,7 @@ from graphfx.render.segments import (
     DX,
     DY,
     GREEN,
+    HEAD_X,
     JOINED_HEAD,
     JOINED_TAIL,
     KEY0,
@@ -46,6 +47,7 @@ from graphfx.render.segments import (
     SHARP0,
     SHARP1,
     SOLID,
+    TAIL_X,
     THIN,
     VARYING,
     X,
@@ -78,6 +80,8 @@ class Local(NamedTuple):
     radius_way: np.float32
     confusion: np.float32
     confusion_way: np.float32
+    head_plane: tuple[np.float32, np.float32, np.float32]
+    tail_plane: tuple[np.float32, np.float32, np.float32]
     key: np.float32
     key_way: np.float32
     nearest: np.float32
@@ -106,6 +110,13 @@ def _bounded(value, most):
 
 
 @inner
+def _plane(joints, q, at, x, y):
+    """Return the normal of the plane through (x, y) in which a segment ends, and its product with the points of it."""
+    across, down = joints[q, at], joints[q, at + 1]
+    return across, down, F(across * x + down * y)
+
+
+@inner
 def localize(segments, q, left, top):
     """Return segment q relative to the pixel centre (left, top); its `inverse` is negative if it misses the tile."""
     places, values, kind = segments.places, segments.values, np.int64(segments.kind[q])
@@ -126,6 +137,11 @@ def localize(segments, q, left, top):
         r0, r1 = segments.focus[q, SHARP0], segments.focus[q, SHARP1]
         confusion = np.float64(segments.focus[q, CONFUSION0])
         confusion_way = np.float64(segments.focus[q, CONFUSION1]) - confusion
+    head_plane = tail_plane = (F(0.0), F(0.0), F(0.0))
+    if kind & JOINED_HEAD:
+        head_plane = _plane(segments.joints, q, HEAD_X, x, y)
+    if kind & JOINED_TAIL:
+        tail_plane = _plane(segments.joints, q, TAIL_X, x + dx, y + dy)
     radius_way, key_way = np.float64(r1) - np.float64(r0), np.float64(k1) - np.float64(k0)
     most = margin + LONG + TILE_HEIGHT
     start_x, start_y = _bounded(x + first * dx, most), _bounded(y + first * dy, most)
@@ -136,7 +152,8 @@ def localize(segments, q, left, top):
     return Local(
         start_x, start_y, way_x, way_y, inverse if share >= 0.0 else F(-1.0),
         F(r0 + first * radius_way), F(share * radius_way),
-        F(confusion + first * confusion_way), F(share * confusion_way), F(k0 + first * key_way), F(share * key_way),
+        F(confusion + first * confusion_way), F(share * confusion_way), head_plane, tail_plane,
+        F(k0 + first * key_way), F(share * key_way),
         min(k0, k1), max(k0, k1), F(first), F(share), reach,
         pace if kind & SOLID else F(0.0), F(0.0) if kind & SOLID else pace, kind,
     )
@@ -176,13 +193,15 @@ def nearest_point(local, group):
 
 @inner
 def beyond_joint(local, group):
-    """Return which pixels lie beyond an end at which the segment goes on in another."""
-    across, down = pixel_columns() - local.x, pixel_rows(group) - local.y
+    """Return which pixels lie beyond the plane between the segment and another in which it goes on."""
+    across, down = pixel_columns(), pixel_rows(group)
     beyond = across < NOWHERE
     if local.kind & JOINED_HEAD:
-        beyond = beyond | (across * local.dx + down * local.dy < 0.0)
+        x, y, least = local.head_plane
+        beyond = beyond | (across * x + down * y < least)
     if local.kind & JOINED_TAIL:
-        beyond = beyond | ((across - local.dx) * local.dx + (down - local.dy) * local.dy >= 0.0)
+        x, y, least = local.tail_plane
+        beyond = beyond | (across * x + down * y >= least)
     return beyond
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from graphfx.lanes import compiled
 from graphfx.lanes.bits import prefetch
 from graphfx.lanes.inner import inner
-from graphfx.render.segments import BLURRED, Segments, empty_segments
+from graphfx.render.segments import BLURRED, JOINED_HEAD, JOINED_TAIL, Segments, empty_segments
 from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
 from graphfx.store.threads import parallel_ranges, ranges
@@ -72,12 +72,16 @@ def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
         if source.kind[row] & BLURRED:
             for c in range(4):
                 target.focus[i, c] = source.focus[row, c]
+        if source.kind[row] & (JOINED_HEAD | JOINED_TAIL):
+            for c in range(4):
+                target.joints[i, c] = source.joints[row, c]
 
 
 def ordered(segments: Segments, rows: np.ndarray, threads: int) -> Segments:
     """Return the segments of `rows`, nearest first; equals stay in the order of stream and particle."""
     order = rows[stable_argsort(segments.nearest[rows], threads)]
-    packed = empty_segments(len(rows), len(segments.tails) > 0, len(segments.particle) > 0, len(segments.focus) > 0)
+    optional = (segments.tails, segments.particle, segments.focus, segments.joints)
+    packed = empty_segments(len(rows), *(len(column) > 0 for column in optional))
     bounds = ranges(len(rows), threads, GRAIN)
     parallel_ranges(lambda _, start, stop: _pack(segments, order, start, stop, packed), bounds, threads)
     return packed

@@ -20,9 +20,9 @@ import math
 import numpy as np
 
 from graphfx.lanes import compiled
-from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
+from graphfx.render.joints import joints_of, write_joints
 from graphfx.render.order import ordered_word
 from graphfx.render.segments import (
     BLURRED,
@@ -44,7 +44,8 @@ from graphfx.render.segments import (
     X,
     Y,
 )
-from graphfx.render.weights import GREATEST_PACE, joined_total, joints_of, pace_of, true_total
+from graphfx.render.sight import between_planes, mixed, seen_at, value_of
+from graphfx.render.weights import GREATEST_PACE, joined_total, pace_of, true_total
 
 GREATEST_RADIUS = 1e9
 """Pixels; more than this is as good as this, and its square is a float32."""
@@ -52,59 +53,6 @@ GREATEST_OPACITY = 1e6
 """At the centre of a small particle, before its share of a pixel; far more than is ever needed."""
 GREATEST_COLOR = 1e30
 """Colours are kept within this, so that differences and sums of them stay finite."""
-
-
-@inner
-def value_of(columns, c, i):
-    """Return particle i's value of column c: row 0 of `columns` holds the addresses, row 1 the masks of the index."""
-    return np.float64(float_at(columns[0, c], i & columns[1, c]))
-
-
-@inner
-def _transformed(columns, i, place, size, seen):
-    """Return (x w, y w, w, radius w, c w) of particle i's point in columns `place` ... + 2, its radius in column `size`."""
-    matrix = seen.matrix
-    x, y, z = value_of(columns, place, i), value_of(columns, place + 1, i), value_of(columns, place + 2, i)
-    depth = matrix[2, 0] * x + matrix[2, 1] * y + matrix[2, 2] * z + matrix[2, 3]
-    return (
-        matrix[0, 0] * x + matrix[0, 1] * y + matrix[0, 2] * z + matrix[0, 3],
-        matrix[1, 0] * x + matrix[1, 1] * y + matrix[1, 2] * z + matrix[1, 3],
-        depth,
-        max(value_of(columns, size, i), 0.0) * seen.scale,
-        seen.confusion * (depth - seen.focus),
-    )
-
-
-@inner
-def seen_at(columns, i, place, size, moment, view):
-    """Return the same at a moment between the cameras, 0 the head's and 1 the tail's."""
-    if moment == 0.0:
-        return _transformed(columns, i, place, size, view.head)
-    after = _transformed(columns, i, place, size, view.tail)
-    if moment == 1.0:
-        return after
-    before = _transformed(columns, i, place, size, view.head)
-    return (
-        _mixed(before[0], after[0], moment), _mixed(before[1], after[1], moment), _mixed(before[2], after[2], moment),
-        _mixed(before[3], after[3], moment), _mixed(before[4], after[4], moment),
-    )
-
-
-@inner
-def _between_planes(head, tail, near, far):
-    """Return the part of s = 0 ... 1 that lies between the planes; its end is below its start where there is none."""
-    start, stop = 0.0, 1.0
-    way = tail - head
-    if way == 0.0:
-        return (0.0, 1.0) if near <= head <= far else (1.0, 0.0)
-    at_near, at_far = (near - head) / way, (far - head) / way
-    return max(start, min(at_near, at_far)), min(stop, max(at_near, at_far))
-
-
-@inner
-def _mixed(a, b, s):
-    """Return a + s (b - a), exactly a at 0 and b at 1."""
-    return b if s == 1.0 else a + s * (b - a)
 
 
 @inner
@@ -132,13 +80,13 @@ def screen_segment(columns, i, view, look):
     """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1), radii in focus, pixels out of it) of particle i."""
     head = seen_at(columns, i, 0, 6, value_of(columns, 19, i), view)
     tail = seen_at(columns, i, 3, 7, value_of(columns, 20, i), view)
-    first, last = _between_planes(head[2], tail[2], view.near, view.far)
-    x0, x1 = _mixed(head[0], tail[0], first), _mixed(head[0], tail[0], last)
-    y0, y1 = _mixed(head[1], tail[1], first), _mixed(head[1], tail[1], last)
-    k0 = min(max(_mixed(head[2], tail[2], first), view.near), view.far)  # rounding must not leave the planes
-    k1 = min(max(_mixed(head[2], tail[2], last), view.near), view.far)
-    r0, r1 = _mixed(head[3], tail[3], first), _mixed(head[3], tail[3], last)
-    c0, c1 = _mixed(head[4], tail[4], first), _mixed(head[4], tail[4], last)
+    first, last = between_planes(head[2], tail[2], view.near, view.far)
+    x0, x1 = mixed(head[0], tail[0], first), mixed(head[0], tail[0], last)
+    y0, y1 = mixed(head[1], tail[1], first), mixed(head[1], tail[1], last)
+    k0 = min(max(mixed(head[2], tail[2], first), view.near), view.far)  # rounding must not leave the planes
+    k1 = min(max(mixed(head[2], tail[2], last), view.near), view.far)
+    r0, r1 = mixed(head[3], tail[3], first), mixed(head[3], tail[3], last)
+    c0, c1 = mixed(head[4], tail[4], first), mixed(head[4], tail[4], last)
     if view.perspective:
         i0, i1 = 1.0 / k0, 1.0 / k1
         x0, y0, r0, c0, k0 = x0 * i0, y0 * i0, r0 * i0, c0 * i0, -i0
@@ -203,15 +151,15 @@ def _write_look(columns, i, first, last, factor, look, segments, at):
     """
     values, tails = segments.values, segments.tails
     head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
-    opacity0 = np.float32(look.sign * min(_mixed(head, tail, first) * factor, GREATEST_OPACITY))
-    opacity1 = np.float32(look.sign * min(_mixed(head, tail, last) * factor, GREATEST_OPACITY))
+    opacity0 = np.float32(look.sign * min(mixed(head, tail, first) * factor, GREATEST_OPACITY))
+    opacity1 = np.float32(look.sign * min(mixed(head, tail, last) * factor, GREATEST_OPACITY))
     values[at, OPACITY] = opacity0
     varying = opacity0 != opacity1
     for c in range(3):
         head, tail = _color(value_of(columns, 8 + c, i)), _color(value_of(columns, 11 + c, i))
-        values[at, RED + c] = _mixed(head, tail, first)
+        values[at, RED + c] = mixed(head, tail, first)
         if look.varies:
-            tails[at, c] = _mixed(head, tail, last)
+            tails[at, c] = mixed(head, tail, last)
             varying = varying or head != tail
     if look.varies:
         tails[at, 3] = opacity1
@@ -242,6 +190,7 @@ def _write_segment(columns, i, view, look, window, number, segments, at):
     total, factor = true_total(sharp, segment, look), 1.0
     if joints != 0 and portion > 0.0:
         kind |= joints
+        write_joints(columns, i, view, segment, segments, at)
         pace = min(pace / portion, GREATEST_PACE)
         total = joined_total(sharp, segment, look, joints, portion)
     elif look.exposed:

@@ -48,6 +48,7 @@ class Scene:
     height: int
     pieces: list[Piece]
     varies: bool
+    joined: bool
     sampled: bool
     threads: int
     reaches: tuple[np.ndarray, np.ndarray] | None = None
@@ -58,9 +59,14 @@ class Scene:
         return self.pieces[-1].first + self.pieces[-1].stop - self.pieces[-1].start if self.pieces else 0
 
     @property
+    def needs(self) -> tuple[bool, bool, bool, bool]:
+        """Return which columns any segment needs that not all do (see segments.py)."""
+        return self.varies, self.sampled, self.view.blurred, self.joined
+
+    @property
     def segment_bytes(self) -> int:
         """Return the memory that one segment takes while it is put in order."""
-        return segment_bytes(self.varies, self.sampled, self.view.blurred)
+        return segment_bytes(*self.needs)
 
     def window(self, patch: Patch, slab: Slab = EVERYWHERE) -> Window:
         """Return the part of the picture that is a patch."""
@@ -75,7 +81,7 @@ class Scene:
         window = self.window(patch)
         rooms = np.array([self._room(piece, patch) for piece in self.pieces], np.int64)
         starts = offsets(rooms)
-        segments = empty_segments(int(starts[-1]), self.varies, self.sampled, self.view.blurred)
+        segments = empty_segments(int(starts[-1]), *self.needs)
         kept, dropped = [0] * len(self.pieces), [0] * len(self.pieces)
 
         def work(number: int) -> None:
@@ -88,7 +94,7 @@ class Scene:
 
     def slab_segments(self, patch: Patch, slab: Slab, most: int) -> tuple[Segments, np.ndarray]:
         """Return the segments of a slab of a patch, at most so many."""
-        segments, at = empty_segments(most + 1, self.varies, self.sampled, self.view.blurred), 0
+        segments, at = empty_segments(most + 1, *self.needs), 0
         for piece in self.pieces:
             if slab.start < piece.first + piece.stop - piece.start and piece.first < slab.stop:
                 at += self._project(piece, self.window(patch, slab), segments, at)[0]
@@ -155,4 +161,5 @@ def make_scene(
         ]
         first += stream.count
     view = view_of(head, tail, width, height)
-    return Scene(view, width, height, pieces, any(stream.varies for stream in streams), sampled, threads)
+    varies, joined = any(stream.varies for stream in streams), any(stream.is_joined for stream in streams)
+    return Scene(view, width, height, pieces, varies, joined, sampled, threads)

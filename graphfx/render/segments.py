@@ -10,7 +10,9 @@ THIN, VARYING, SOLID, BLURRED = 4, 8, 16, 128
 """Bits of a segment's kind, beside its falloff: radius under a pixel somewhere; colour or opacity differ; not exposed; out
 of focus (those are THIN as well)."""
 JOINED_HEAD, JOINED_TAIL = 32, 64
-"""Bits of a segment that goes on in another at its head or tail: it has no cap there."""
+"""Bits of a segment that goes on in another at its head or tail: it ends there in the plane between them."""
+HEAD_X, HEAD_Y, TAIL_X, TAIL_Y = range(4)
+"""Places in the row of such a segment: the normals of these planes, from its head's side to its tail's."""
 X, Y, DX, DY = 0, 1, 2, 3
 """Places in a segment's row of float64: the head on the screen and the way to the tail, pixels."""
 RADIUS0, RADIUS1, KEY0, KEY1, OPACITY, RED, GREEN, BLUE = range(8, 16)
@@ -34,18 +36,20 @@ class Segments(NamedTuple):
     nearest: np.ndarray
     particle: np.ndarray
     focus: np.ndarray
+    joints: np.ndarray
 
 
-def segment_bytes(varies: bool, sampled: bool, blurred: bool) -> int:
+def segment_bytes(varies: bool, sampled: bool, blurred: bool, joined: bool) -> int:
     """Return the most memory that a segment takes while it is put in order: two rows of all columns, and three row numbers."""
-    return 2 * (64 + 16 * varies + 8 * sampled + 16 * blurred + 9) + 12
+    return 2 * (64 + 16 * varies + 8 * sampled + 16 * blurred + 16 * joined + 9) + 12
 
 
-def empty_segments(count: int, varies: bool, sampled: bool, blurred: bool) -> Segments:
-    """Return room for `count` segments: colours of tails, particles and radii in focus only where any differ or are wanted."""
+def empty_segments(count: int, varies: bool, sampled: bool, blurred: bool, joined: bool) -> Segments:
+    """Return room for `count` segments; what not all need, only where any needs it."""
     places = np.empty((count, 8), np.float64)
     return Segments(
         places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
         np.empty(count if sampled else 0, np.int64), np.empty((count if blurred else 0, 4), np.float32),
+        np.empty((count if joined else 0, 4), np.float32),
     )

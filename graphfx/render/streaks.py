@@ -29,7 +29,9 @@ class Streaks:
     | `share` | 0 to 1 | the part of the shutter for which the particle lives (`exposed` only) |
     | `part` | 0 to 1 | the part of that time that this streak takes, which is a piece of the particle's whole |
     | `joined` | | 1: the streak goes on in another at its head, 2: at its tail, 3: at both; it has no caps there |
+    | `ahead`, `behind` | m | where the other ends of those are; straight on if not given |
     | `head_moment`, `tail_moment` | 0 to 1 | when head and tail are seen: 0 by the head camera, 1 by the tail camera |
+    | `ahead_moment`, `behind_moment` | | when those ends are seen |
     | `blend` | | `over`, or `add`: shines without hiding what is behind |
     | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc` |
     | `rows` | | the numbers of those that are drawn, in their order; all if not given |
@@ -51,6 +53,10 @@ class Streaks:
     joined: Column = 0.0
     head_moment: Column = 0.0
     tail_moment: Column = 1.0
+    ahead: Vectors | None = None
+    behind: Vectors | None = None
+    ahead_moment: Column = 0.0
+    behind_moment: Column = 1.0
     blend: str = "over"
     falloff: str = "linear"
     streak: str = "exposed"
@@ -77,18 +83,26 @@ class Streaks:
         """Return whether colour or opacity may differ between head and tail."""
         return self.tail_color is not None or self.tail_opacity is not None
 
+    @property
+    def is_joined(self) -> bool:
+        """Return whether any streak goes on in another."""
+        return bool(np.any(self.joined))
+
     def columns(self, start: int, stop: int) -> list[np.ndarray]:
-        """Return the 21 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
+        """Return the 29 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
 
         Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share, part,
-        joined, head and tail moment.
+        joined, head and tail moment, ahead x y z, behind x y z, their moments.
         """
         tail = self.head if self.tail is None else self.tail
         tail_radius = self.head_radius if self.tail_radius is None else self.tail_radius
         tail_color = self.head_color if self.tail_color is None else self.tail_color
         tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
         given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
-                 self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment]
+                 self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment,
+                 *(self.head if self.ahead is None else self.ahead), *(tail if self.behind is None else self.behind),
+                 self.ahead_moment if self.ahead is not None else self.head_moment,
+                 self.behind_moment if self.behind is not None else self.tail_moment]
         rows = slice(start, stop) if self.rows is None else self.rows[start:stop]
         return [self._column(np.asarray(column).reshape(-1), rows) for column in given]
 

@@ -20,18 +20,6 @@ GREATEST_PACE = 1e28
 
 
 @inner
-def joints_of(given, segment, first, last):
-    """Return the bits of the ends at which a segment goes on in another, 1 the head and 2 the tail being given.
-
-    There are none where it is shorter than it is wide, or cut by a plane.
-    """
-    _, _, dx, dy, r0, r1, _, _ = segment
-    if given == 0 or not dx * dx + dy * dy >= max(r0, r1, 1.0) ** 2:
-        return 0
-    return (JOINED_HEAD if given & 1 and first == 0.0 else 0) | (JOINED_TAIL if given & 2 and last == 1.0 else 0)
-
-
-@inner
 def pace_of(segment, look, perspective):
     """Return what weighs the segment's opacity (see layer.py): solid (width / area) L, exposed (width / area) of its speed.
 

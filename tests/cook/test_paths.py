@@ -95,7 +95,8 @@ def test_many_bounces_keep_the_first_and_the_last():
 
 def test_pieces_look_as_their_own_particle():
     """Each piece has the radius, colour and opacity of the particle whose way it is part of."""
-    own = {"radius": {"rand": [0.02, 0.06]}, "color": {"rand": [[0, 0, 0], [1, 1, 1]]}, "position": {"in_box": {"min": [-1, 1, 0]}}}
+    own: dict[str, Any] = {"radius": {"rand": [0.02, 0.06]}, "color": {"rand": [[0, 0, 0], [1, 1, 1]]}}
+    own["position"] = {"in_box": {"min": [-1, 1, 0]}}
     found = scene([{"type": "gravity"}, FLOOR], {"count": 20, "set": LOOK | own}, 2.5)
     simulation = found.simulation()
     for _ in simulation.frames(4):

@@ -41,6 +41,8 @@ class Segment:
     confusion: tuple[float, float] = (0.0, 0.0)
     """Pixels out of focus at head and tail, times the square root of 1 / (4 moment)."""
     joined: tuple[bool, bool] = (False, False)
+    others: tuple[np.ndarray, np.ndarray] = (np.zeros(2), np.zeros(2))
+    """The unit vectors from head and tail to the far ends of the segments in which this one goes on; zero if straight on."""
     portion: float = 1.0
     """The part of the whole streak's time that a joined segment takes; 1 for others."""
 
@@ -66,9 +68,15 @@ class Segment:
         return np.maximum(np.hypot(radius, confusion), 1.0)
 
     def owned(self, x, y):
-        """Return the pixels that do not lie beyond a joint."""
-        along = (x - self.head[0]) * self.way[0] + (y - self.head[1]) * self.way[1]
-        return ~((along < 0) & self.joined[0]) & ~((along >= self.length**2) & self.joined[1])
+        """Return the pixels that are not nearer to the line of a segment in which this one goes on."""
+        owned = np.ones(x.shape, bool)
+        for joined, corner, into, other in zip(
+            self.joined, (self.head, self.head + self.way), (self.way, -self.way), self.others, strict=True
+        ):
+            normal = into / self.length - other
+            beyond = (x - corner[0]) * normal[0] + (y - corner[1]) * normal[1]
+            owned &= ~joined | (beyond >= 0 if corner is self.head else beyond > 0)
+        return owned
 
     def at(self, x, y):
         """Return (opacity before that of the particle, t, whether there is a fragment) at pixel centres."""
@@ -139,6 +147,7 @@ def project(stream, i, head_camera, tail_camera, width, height):
     share, part = value(stream.share, i), np.clip(value(stream.part, i), 0, 1)
     if not np.isfinite([*stream.head[:, i], *tail[:, i], *radii, *np.ravel(colors), *opacities, share]).all():
         return "dropped"
+    cameras = head_camera, tail_camera
     ends = []  # what is linear in s: see `homogeneous`
     for moment, point, radius, color, opacity in zip(
         (stream.head_moment, stream.tail_moment), (stream.head[:, i], tail[:, i]), radii, colors, opacities, strict=True
@@ -165,11 +174,24 @@ def project(stream, i, head_camera, tail_camera, width, height):
         segment.joined = (bool(joined & 1) and cut[0] == 0, bool(joined & 2) and cut[1] == 1)
     if any(segment.joined):
         segment.portion = portion
+        far = [(stream.ahead, stream.ahead_moment, ends[0]), (stream.behind, stream.behind_moment, ends[1])]
+        segment.others = tuple(  # type: ignore[assignment]
+            np.zeros(2) if points is None else seen_way(cameras, end, points[:, i], value(moment, i), width, height)
+            for points, moment, end in far
+        )
     factor = evened(segment)
     if not segment.solid:
         factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)
     segment.opacity = tuple(end[8] * factor for end in (first, last))
     return segment
+
+
+def seen_way(cameras, end, point, moment, width, height):
+    """Return the direction on the screen, as a unit vector, in which the way from an end to a point starts."""
+    early, late = (homogeneous(camera, point, 0.0, width, height) for camera in cameras)
+    other = (1 - moment) * early + moment * late
+    way = other[:2] * end[2] - end[:2] * other[2] if cameras[0].perspective else other[:2] - end[:2]
+    return way / np.hypot(*way) if way.any() else np.zeros(2)
 
 
 def homogeneous(camera, point, radius, width, height):

@@ -91,6 +91,35 @@ def test_exposed_pieces_of_a_bend_keep_the_total_light(falloff):
     assert bend == pytest.approx(film(still, camera=PIXELS, size=(64, 64)).pixels[..., 0].sum(), rel=0.02)
 
 
+@pytest.mark.parametrize("camera", [CAMERA, FLAT], ids=["perspective", "orthographic"])
+@pytest.mark.parametrize("streak", ["exposed", "solid"])
+def test_bent_joints_are_what_the_reference_says(camera, streak):
+    """Parted by the plane between the two, under a camera that moves too, also where the other goes behind it."""
+    scene = comets(45, 60, streak=streak, length=1.0)
+    draw = np.random.default_rng(45)
+    scene.joined = draw.integers(0, 4, 60).astype(np.float32)
+    scene.ahead = (scene.head + draw.normal(0, 3, (3, 60))).astype(np.float32)
+    scene.behind = (scene.tail + draw.normal(0, 3, (3, 60))).astype(np.float32)
+    scene.ahead_moment, scene.behind_moment = draw.random(60, np.float32), draw.random(60, np.float32)
+    hold(scene, camera=camera, tail_camera=TURNED if camera is CAMERA else None)
+
+
+@pytest.mark.parametrize("turn", [0.3, 0.8, 1.5, 2.5])
+def test_solid_bend_is_one_body(turn):
+    """Where pieces of half opacity go on in each other there are no gaps and no beads: each pixel is covered once."""
+    corner = np.float32([[0.3], [-0.2], [0]])
+    away = [np.float32([[np.cos(angle)], [np.sin(angle)], [0]]) * 20 for angle in (np.pi, turn)]
+    ends = [corner + way for way in away]
+    look = {"streak": "solid", "falloff": "disc", "head_opacity": 0.5}
+    joined = [Streaks(ends[0], corner, 4.0, joined=2.0, behind=ends[1], **look),
+              Streaks(corner, ends[1], 4.0, joined=1.0, ahead=ends[0], **look)]
+    apart = [Streaks(ends[0], corner, 4.0, **look), Streaks(corner, ends[1], 4.0, **look)]
+    one, two = (film(*each, camera=PIXELS, size=(64, 64)).pixels[..., 3] for each in (joined, apart))
+    most = np.maximum(*(film(each, camera=PIXELS, size=(64, 64)).pixels[..., 3] for each in apart))
+    np.testing.assert_allclose(one, most, rtol=0, atol=1e-5)
+    assert two.max() > 0.7
+
+
 def test_joint_of_a_piece_shorter_than_wide_is_left():
     """A piece that is shorter than its radius keeps its caps, so that nothing is missing."""
     short = Streaks(np.float32([[0.5], [0.5], [0]]), np.float32([[1.5], [0.5], [0]]), 3.0, streak="solid", joined=3.0)
