@@ -10,8 +10,6 @@ import pytest
 from graphfx.cook.pictures import draw, window_of
 from graphfx.cook.streaks import streaks_of
 from graphfx.plan.knots import MOST_KNOTS
-from graphfx.plan.listing import plan_data
-from graphfx.plan.shutter import exposure_of
 from graphfx.render.camera import Camera
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
@@ -61,11 +59,15 @@ def ways(found, frame) -> list[tuple[Any, ...]]:
 @pytest.mark.parametrize("streak", ["exposed", "solid"])
 @pytest.mark.parametrize("substeps", [1, 3])
 def test_bounce_is_the_picture_of_two_straight_pieces(streak, substeps):
-    """A bounce halfway through the shutter looks as its two known straight ways do, each for half of the time."""
+    """A bounce halfway through the shutter looks as its two known straight ways do, each for half of the time.
+
+    Solid they are one body, in which each pixel is nearest to one of them.
+    """
     found = scene([FLOOR], ONE, look={"streak": streak}, substeps=substeps)
     corners = [np.float32([[x], [y], [0]]) for x, y in ((1.5, 1), (0.75, 0), (0, 1))]
-    look = {"head_radius": 0.1, "head_opacity": 0.5, "part": 0.5, "streak": streak}
-    known = [Streaks(corners[0], corners[1], **look), Streaks(corners[1], corners[2], **look)]
+    look: dict[str, Any] = {"head_radius": 0.1, "head_opacity": 0.5, "part": 0.5, "streak": streak}
+    joints = [{"joined": 2.0, "behind": corners[2]}, {"joined": 1.0, "ahead": corners[0]}] if streak == "solid" else [{}, {}]
+    known = [Streaks(corners[k], corners[k + 1], **look, **joints[k]) for k in range(2)]
     camera = Camera((0, 1, 10), (0, 1, 0), projection="orthographic", width_of_view=8, near=0.01)
     wanted = render(known, camera, None, 64, 48)
     np.testing.assert_allclose(found.film(2).pixels, wanted.pixels, rtol=0, atol=1e-5)
@@ -280,31 +282,3 @@ def test_not_finite_particles_are_dropped_once():
     film = draw(found.plan.images[0], simulation, 4, 1)
     broken = sum(~np.isfinite(simulation.particles["sky"].store.column("position")[0]))
     assert 0 < film.dropped == broken
-
-
-@pytest.mark.parametrize(
-    "windows, columns",
-    [
-        ([(0, 0)], []),
-        ([(0, 0.5)], ["tail"]),
-        ([(0, 1.0), (0, 0.3)], ["tail"]),
-        ([(0, 1.5)], ["tail", "path 1", "path 1.5"]),
-        ([(0, 2.0)], ["tail", "path 2"]),
-        ([(0, 2.25)], ["tail", "path 1", "path 1.25", "path 2", "path 2.25"]),
-        ([(0.25, 0.5)], ["path 0.25", "tail"]),
-        ([(0.5, 0.5)], ["path 0.5", "tail"]),
-        ([(0.5, 1.0)], ["tail", "path 1", "path 1.5"]),
-    ],
-)
-def test_only_what_a_shutter_needs_is_kept(windows, columns):
-    """A shutter within the frame keeps one place; each frame more keeps what lies between as well."""
-    assert [instant.column for instant in exposure_of(windows).instants] == columns
-
-
-def test_plan_tells_what_is_kept():
-    """The listing has the columns of the frames before, with their reason."""
-    data = plan_data(made([{"type": "gravity"}], {}, {}, {"shutter": 1.25}).plan)["emitters"][0]["attributes"]
-    told = {column["name"]: column["reason"] for column in data}
-    assert told["path 1.25"] == "where it was 1.25 frames before, for motion blur" and "birth" in told
-    data = plan_data(made([{"type": "gravity"}], {}, {}, {"shutter": 1.0}).plan)["emitters"][0]["attributes"]
-    assert not {column["name"] for column in data} & {"path 1", "birth"}

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .polygon_reference import composite, fragments_of
+from .seen import homogeneous, seen_way
 
 F = np.float32
 MOMENTS = {"linear": 0.15, "gaussian": 0.09780020026157243, "disc": 0.25}
@@ -73,9 +74,10 @@ class Segment:
         for joined, corner, into, other in zip(
             self.joined, (self.head, self.head + self.way), (self.way, -self.way), self.others, strict=True
         ):
-            normal = into / self.length - other
-            beyond = (x - corner[0]) * normal[0] + (y - corner[1]) * normal[1]
-            owned &= ~joined | (beyond >= 0 if corner is self.head else beyond > 0)
+            if joined:
+                normal = into / self.length - other
+                beyond = (x - corner[0]) * normal[0] + (y - corner[1]) * normal[1]
+                owned &= beyond >= 0 if corner is self.head else beyond > 0
         return owned
 
     def at(self, x, y):
@@ -184,29 +186,6 @@ def project(stream, i, head_camera, tail_camera, width, height):
         factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)
     segment.opacity = tuple(end[8] * factor for end in (first, last))
     return segment
-
-
-def seen_way(cameras, end, point, moment, width, height):
-    """Return the direction on the screen, as a unit vector, in which the way from an end to a point starts."""
-    early, late = (homogeneous(camera, point, 0.0, width, height) for camera in cameras)
-    other = (1 - moment) * early + moment * late
-    way = other[:2] * end[2] - end[:2] * other[2] if cameras[0].perspective else other[:2] - end[:2]
-    return way / np.hypot(*way) if way.any() else np.zeros(2)
-
-
-def homogeneous(camera, point, radius, width, height):
-    """Return X and Y in pixels, depth, radius and radius of confusion in pixels; in perspective all but depth times depth."""
-    right, up, ahead = camera.axes()
-    offset = np.asarray(point, np.float64) - camera.position
-    depth, scale = offset @ ahead, camera.scale(width)
-    center = depth if camera.perspective else 1.0
-    x, y = scale * (offset @ right) + width / 2 * center, height / 2 * center - scale * (offset @ up)
-    confusion = 0.0
-    if camera.f_stop < math.inf:
-        lens, focus = camera.lens / 1000, camera.focus_distance
-        diameter = lens**2 * (depth - focus) / (camera.f_stop * (focus - lens))  # on the film, m, times depth; signed
-        confusion = diameter / 2 / 0.036 * width
-    return np.array([x, y, depth, max(radius, 0) * scale, confusion])
 
 
 def planes(head, tail, near, far):

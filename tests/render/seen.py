@@ -1,0 +1,30 @@
+"""How cameras see points: the reference's own account, in float64."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+
+def seen_way(cameras, end, point, moment, width, height):
+    """Return the direction on the screen, as a unit vector, in which the way from an end to a point starts."""
+    early, late = (homogeneous(camera, point, 0.0, width, height) for camera in cameras)
+    other = (1 - moment) * early + moment * late
+    way = other[:2] * end[2] - end[:2] * other[2] if cameras[0].perspective else other[:2] - end[:2]
+    return way / np.hypot(*way) if way.any() else np.zeros(2)
+
+
+def homogeneous(camera, point, radius, width, height):
+    """Return X and Y in pixels, depth, radius and radius of confusion in pixels; in perspective all but depth times depth."""
+    right, up, ahead = camera.axes()
+    offset = np.asarray(point, np.float64) - camera.position
+    depth, scale = offset @ ahead, camera.scale(width)
+    center = depth if camera.perspective else 1.0
+    x, y = scale * (offset @ right) + width / 2 * center, height / 2 * center - scale * (offset @ up)
+    confusion = 0.0
+    if camera.f_stop < math.inf:
+        lens, focus = camera.lens / 1000, camera.focus_distance
+        diameter = lens**2 * (depth - focus) / (camera.f_stop * (focus - lens))  # on the film, m, times depth; signed
+        confusion = diameter / 2 / 0.036 * width
+    return np.array([x, y, depth, max(radius, 0) * scale, confusion])
