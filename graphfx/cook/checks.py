@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
+from graphfx.cook.cameras import check_cameras
 from graphfx.cook.files import check_files
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.meshes import Meshes
@@ -15,11 +16,12 @@ from graphfx.plan.make import Plan
 
 
 def problems_before(plan: Plan) -> list[Problem]:
-    """Return what is wrong with the names of a plan's files, with its size, its meshes, polygons and background pictures."""
+    """Return what is wrong with a plan: the names of its files, its size, cameras, meshes, polygons and background pictures."""
     time = plan.flat.time
     checks: list[Callable[[], object]] = [
         lambda: check_files(plan, Path(), range(time.first, min(time.first + 1, time.last) + 1)),
         lambda: check_limits(plan, CookLimits()),
+        lambda: check_cameras(plan),
         lambda: _check_meshes(plan),
         lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images),
         lambda: backgrounds_of(plan),

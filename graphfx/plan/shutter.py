@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 
 EDGE = 1e-9
 """Frames; instants nearer to each other are one."""
@@ -29,18 +29,13 @@ class Instant:
     back: float
     column: str
     source: str = ""
+    reason: str = field(default="", compare=False)
+    """Why it is kept."""
 
     @property
     def time(self) -> str:
         """Return the name of the instant's time in programs."""
         return "opening" if self.column == "tail" else self.column
-
-    @property
-    def reason(self) -> str:
-        """Return why it is kept."""
-        return "where the shutter opened, for motion blur" if self.column == "tail" and self.back <= 1 else (
-            f"where it was {self.back:g} frames before, for motion blur"
-        )
 
     def step(self, substeps: int) -> int:
         """Return the step of a frame in which the instant lies."""
@@ -77,7 +72,17 @@ def exposure_of(windows: Iterable[tuple[float, float]]) -> Exposure:
     if reach > 1 + EDGE:
         lengths[1.0] = max(lengths.get(1.0, 0.0), math.floor(reach + EDGE))
     instants = [instant for first, last in lengths.items() for instant in _chain(first, last, first == _within_frame(reach))]
-    return Exposure(reach, tuple(sorted(instants, key=lambda instant: instant.back)), deep)
+    instants.sort(key=lambda instant: instant.back)
+    ends = {round(back, 6): "opened" for phase, shutter in known for back in (phase + shutter,)}
+    ends |= {round(phase, 6): "closed" for phase, _ in known}
+    return Exposure(reach, tuple(replace(instant, reason=_reason(instant.back, ends)) for instant in instants), deep)
+
+
+def _reason(back: float, ends: dict[float, str]) -> str:
+    """Return why an instant is kept."""
+    end = ends.get(round(back, 6))
+    what = f"the shutter {end}" if end else f"it was {back:g} frame{'' if back == 1 else 's'} before"
+    return f"where {what}, for motion blur"
 
 
 def _within_frame(back: float) -> float:

@@ -66,7 +66,7 @@ class Camera:
         if self.f_stop < math.inf and not self.perspective:
             raise ValueError("f_stop is for perspective alone: an orthographic camera has no lens, and sees all sharp")
         if self.f_stop < math.inf and not MM * self.lens < self.focus_distance < math.inf:
-            raise ValueError(f"focus_distance is {self.focus_distance} m; it must be more than the lens, {self.lens} mm")
+            raise ValueError(f"focus_distance is {self.focus_distance:g} m; it must be more than the lens, {self.lens:g} mm")
         numbers = np.abs([*self.position, *self.target, *self.up, self.lens, self.width_of_view])
         if not (numbers < GREATEST).all():
             raise ValueError(f"a camera's numbers must be finite, and less than {GREATEST:g}")

@@ -69,3 +69,28 @@ def test_images_with_shutters_of_their_own():
     widths = [int((found.film(2, image=k).pixels[..., 3].max(axis=0) > 0).sum()) for k in range(2)]
     order = [image.node.path for image in found.plan.images]
     assert widths[order.index("frames")] > 3 * widths[order.index("still")]
+
+
+@pytest.mark.parametrize("substeps", [1, 2, 4])
+def test_sources_with_shutters_of_their_own(substeps):
+    """Each source keeps its places for the pictures that draw it alone, in the step in which their shutter opens."""
+    nodes = {
+        "other": {"type": "emit", "rate": 20, "set": {"velocity": [2, 0, 0]}},
+        "second": {"type": "image", "from": "other", "camera": "view", "shutter": 0.3},
+    }
+    time = {"fps": 10, "frames": [1, 6], "precision": 64, "substeps": substeps}
+    found = made([], {"rate": 1, "set": SETS}, time, {"shutter": 0.9}, nodes).simulate(6)
+    for path, shutter in (("sky", 0.9), ("other", 0.3)):
+        old = slice(0, 1)
+        velocity = found[path].get("velocity", np.array([[2.0, 0, 0]]))[old]
+        np.testing.assert_allclose(found[path]["tail"][old], found[path]["position"][old] - velocity * shutter / 10, atol=1e-13)
+
+
+def test_shutter_by_keys():
+    """A shutter that changes from frame to frame draws each frame's own streaks."""
+    emit = {"rate": 0, "count": 1, "set": {"position": [0, 2, 0], "velocity": [60, 0, 0], "radius": 0.3}}
+    camera = {"type": "camera", "position": [8, 2, 14], "target": [8, 2, 0], "projection": "orthographic", "view_width": 32}
+    image = {"shutter": {"keys": [[0, 0], [0.2, 2]]}, "size": [64, 64], "camera": "side"}
+    found = made([], emit, {"fps": 10, "frames": [1, 3]}, image, {"side": camera})
+    widths = [int((found.film(frame).pixels[..., 3].max(axis=0) > 0).sum()) for frame in (1, 2, 3)]
+    assert [abs(width - 2 * 6 * shutter) <= 3 for width, shutter in zip(widths, (0, 1, 2), strict=True)] == [True] * 3

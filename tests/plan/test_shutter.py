@@ -38,6 +38,11 @@ def test_plan_tells_what_is_kept():
     """The listing has the columns of the frames before, with their reason."""
     data = plan_data(plan_of(1.25))["emitters"][0]["attributes"]
     told = {column["name"]: column["reason"] for column in data}
-    assert told["path 1.25"] == "where it was 1.25 frames before, for motion blur" and "birth" in told
+    assert [told[name] for name in ("tail", "path 1", "path 1.25", "birth")] == [
+        "where it was 0.25 frames before, for motion blur",
+        "where it was 1 frame before, for motion blur",
+        "where the shutter opened, for motion blur",
+        "since when it is seen, for motion blur",
+    ]
     data = plan_data(plan_of(1.0))["emitters"][0]["attributes"]
     assert not {column["name"] for column in data} & {"path 1", "birth"}

@@ -87,7 +87,7 @@ def test_closed_lens_is_sharp():
     [
         ({"f_stop": 0.0}, "f_stop is 0.0"),
         ({"f_stop": 2.0, "projection": "orthographic"}, "orthographic camera has no lens"),
-        ({"f_stop": 2.0, "focus_distance": 0.05, "lens": 50.0}, "focus_distance is 0.05 m; .* more than the lens, 50.0 mm"),
+        ({"f_stop": 2.0, "focus_distance": 0.05, "lens": 50.0}, "focus_distance is 0.05 m; .* more than the lens, 50 mm"),
         ({"f_stop": 2.0, "focus_distance": np.inf}, "focus_distance is inf"),
     ],
 )

@@ -38,3 +38,21 @@ def test_film_is_finite(seed):
             got = film(wild_streaks(draw, 30), wild_streaks(draw, 30), camera=camera, size=(40, 30))
             assert np.isfinite(got.pixels).all() and got.dropped == 0
             assert got.pixels[..., 3].min() >= 0.0 and got.pixels[..., 3].max() <= 1.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_film_of_pieces_out_of_focus_is_finite(seed):
+    """Joints to anywhere, parts of nothing, moments beyond the shutter, lenses as wide as a house."""
+    draw = np.random.default_rng(seed + 100)
+    for _ in range(20):
+        opened = [
+            Camera(near=10.0 ** near, f_stop=10.0 ** draw.uniform(-30, 3), focus_distance=10.0 ** draw.uniform(-1, 30))
+            for near in draw.uniform(-9, 0, 2)
+        ]
+        scene = wild_streaks(draw, 30)
+        scene.part, scene.joined = wild(draw, 30), draw.integers(0, 4, 30).astype(np.float32)
+        scene.ahead, scene.behind = wild(draw, 3, 30), wild(draw, 3, 30)
+        scene.head_moment, scene.tail_moment, scene.ahead_moment = draw.random(30), draw.random(30), draw.random(30)
+        got = film(scene, camera=opened[0], tail_camera=opened[1], size=(40, 30))
+        assert np.isfinite(got.pixels).all()
+        assert got.pixels[..., 3].min() >= 0.0 and got.pixels[..., 3].max() <= 1.0
