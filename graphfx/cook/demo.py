@@ -32,6 +32,8 @@ from graphfx.output.sheet import Card, Picture, page, sheet
 
 QUALITY = 90.0
 """Of the page's movies."""
+LEAST_TOLD = 0.01
+"""Percents below which light does not vary enough to say by how much."""
 
 
 @dataclass(frozen=True)
@@ -152,6 +154,8 @@ def _card(demo: Demo, drawn: Drawn, folder: Path) -> Card:
     facts = []
     if demo.light:
         frames = len(next(iter(drawn.light.values())))
-        facts.append(f"Measured: over {frames} frames the light of all pixels varies by {100 * drawn.variation:.2g} %.")
+        percent = 100 * drawn.variation
+        much = f"by {percent:.2g} %" if percent >= LEAST_TOLD else f"by less than {LEAST_TOLD} %"
+        facts.append(f"Measured: over {frames} frames the light of all pixels varies {much}.")
     shutil.copyfile(demo.file, folder / demo.file.name)
     return Card(demo.title, demo.caption, tuple(pictures), tuple(facts), demo.file.name)

@@ -58,7 +58,8 @@ class Card:
     @property
     def height(self) -> int:
         """Return its height on a sheet."""
-        return HEAD + max(len(picture.pixels) for picture in self.pictures) + FOOT
+        told = self.facts or any(picture.label for picture in self.pictures)
+        return HEAD + max(len(picture.pixels) for picture in self.pictures) + (FOOT if told else 0)
 
 
 def rows_of(cards: Sequence[Card]) -> Iterator[list[Card]]:

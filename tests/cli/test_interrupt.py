@@ -44,3 +44,23 @@ def test_interrupt_leaves_whole_files(started: Callable[..., subprocess.Popen[st
     words = shlex.split(command)
     assert words[:-1] == ["graphfx", "cook", "long.json", "--out", "long frames", "--set", "speed=2", "--frames"]
     assert parse_frames(words[-1], 1, LAST) == list(range(done + 1, LAST + 1))
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Ctrl-C reaches processes otherwise there")
+def test_interrupt_leaves_no_movie(started: Callable[..., subprocess.Popen[str]], folder: Path) -> None:
+    """Stopped by Ctrl-C, a preview leaves no file, and prints the command that makes all of it again."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["time"]["frames"] = [1, LAST]
+    (folder / "long.json").write_text(json.dumps(graph))
+    process = started("preview", "long.json", "--out", "shown/long.webp", "--size", "64x36", "--limit-pixels", "9999")
+    assert process.stderr is not None
+    assert any(line.startswith("frame 4 ") for line in process.stderr)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (130, "")
+    stopped, command = err.splitlines()[-2:]
+    assert re.fullmatch(r"stopped after frame \d+; all files in shown are whole; no movie is written, as it needs all of its "
+                        r"5,000 frames. To begin again:", stopped)
+    assert shlex.split(command) == ["graphfx", "preview", "long.json", "--out", "shown/long.webp", "--size", "64x36",
+                                    "--limit-pixels", "9999", "--frames", f"1-{LAST}"]
+    assert list((folder / "shown").iterdir()) == []

@@ -29,7 +29,7 @@ def test_every_kept_picture_is_of_a_demo() -> None:
 
 
 def test_dust_does_not_flicker() -> None:
-    """The light of a moving particle of a twentieth of a pixel's radius varies by less than 1 %, that of a swarm too."""
+    """The light of a moving particle with a tenth of a pixel for a radius varies by less than 1 %, that of a swarm too."""
     light = drawn(DEMOS["dust"]).light
     assert light.keys() == {"frames", "one"}
     for series in light.values():

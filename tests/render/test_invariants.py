@@ -168,3 +168,13 @@ def test_uniform_values_are_as_good_as_columns():
         head, None, np.full(count, 0.2, np.float32), head_color=colors, head_opacity=np.full(count, 0.5, np.float32)
     )
     assert film(uniform, camera=CAMERA).pixels.tobytes() == film(columns, camera=CAMERA).pixels.tobytes()
+
+
+def test_no_fragment_is_more_than_opaque():
+    """An opaque particle of a pixel's radius keeps its total, more than a pixel's, and no pixel's alpha passes 1."""
+    look = {"falloff": "linear", "head_opacity": 1.0}
+    for x, y in ((0.0, 0.0), (0.5, 0.5), (0.5, 0.0), (0.2, 0.4)):
+        for radius in (0.97, 1.0, 1.2):
+            alpha = film(one((x, y, 0), None, radius, **look), camera=PIXELS, size=(64, 64)).pixels[..., 3]
+            assert alpha.max() <= 1.0
+    assert total(one((0.2, 0.4, 0), None, 0.97, **look)) == pytest.approx(np.pi / 3 * 0.97**2, rel=0.01)
