@@ -27,12 +27,12 @@ def covering(size: tuple[int, int], frame: tuple[int, int]) -> tuple[float, floa
     return left, top, width - left, height - top
 
 
-def read_backdrop(file: str, frame: tuple[int, int], color: tuple[float, float, float]) -> np.ndarray:
-    """Return a picture fitted to a frame (width, height), linear float32 (height, width, 3), over a colour.
+def read_backdrop(file: str, frame: tuple[int, int]) -> np.ndarray:
+    """Return a picture fitted to a frame (width, height), linear float32 (height, width, 4), multiplied by its alpha.
 
     Raise GraphError for what is no picture, LimitError for one that is too large.
     """
-    return _fitted(_read_exr(file) if file.lower().endswith(".exr") else _premultiplied(load_light(file)), frame, color)
+    return _fitted(_read_exr(file) if file.lower().endswith(".exr") else _premultiplied(load_light(file)), frame)
 
 
 def _premultiplied(light: np.ndarray) -> np.ndarray:
@@ -54,8 +54,8 @@ def _read_exr(file: str) -> np.ndarray:
     return light
 
 
-def _fitted(picture: np.ndarray, frame: tuple[int, int], color: tuple[float, float, float]) -> np.ndarray:
-    """Return a premultiplied picture cut and scaled to a frame, over a colour."""
+def _fitted(picture: np.ndarray, frame: tuple[int, int]) -> np.ndarray:
+    """Return a premultiplied picture cut and scaled to a frame."""
     from PIL import Image
 
     height, width = picture.shape[:2]
@@ -64,6 +64,6 @@ def _fitted(picture: np.ndarray, frame: tuple[int, int], color: tuple[float, flo
         np.asarray(Image.fromarray(np.ascontiguousarray(picture[..., plane])).resize(frame, Image.Resampling.BICUBIC, part))
         for plane in range(4)
     ] if (width, height) != frame else list(np.moveaxis(picture, -1, 0))
-    scaled = np.stack(planes, axis=-1)
-    behind = (1.0 - scaled[..., 3:].clip(0.0, 1.0)) * np.asarray(color, np.float32)
-    return np.asarray(np.maximum(scaled[..., :3], 0.0) + behind, np.float32)
+    scaled = np.maximum(np.stack(planes, axis=-1), 0.0)
+    scaled[..., 3] = scaled[..., 3].clip(0.0, 1.0)
+    return scaled

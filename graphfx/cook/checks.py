@@ -10,7 +10,7 @@ from graphfx.cook.files import check_files
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.meshes import Meshes
 from graphfx.cook.polygons import PolygonMaker
-from graphfx.cook.writing import backgrounds_of
+from graphfx.cook.writing import backdrops_of
 from graphfx.errors import GraphfxError, Problem
 from graphfx.plan.make import Plan
 
@@ -24,7 +24,7 @@ def problems_before(plan: Plan) -> list[Problem]:
         lambda: check_cameras(plan),
         lambda: _check_meshes(plan),
         lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images),
-        lambda: backgrounds_of(plan),
+        lambda: backdrops_of(plan),
     ]
     problems: list[Problem] = []
     for check in checks:

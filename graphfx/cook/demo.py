@@ -118,7 +118,7 @@ def draw_demo(demo: Demo, library: Library, folder: Path | None, threads: int, s
             for image in effect.plan.images if demo.light or frame == last else ():
                 film = writer.draw(None, image, simulation, frame)
                 drawn.light[image.node.path].append(float(film.pixels[..., :3].sum(dtype=float)))
-                drawn.stills[image.node.path] = writer.displayed(image, film)
+                drawn.stills[image.node.path] = writer.displayed(image, film, frame)
                 if image.node.path in movies:
                     movies[image.node.path](drawn.stills[image.node.path])
     return drawn

@@ -24,7 +24,7 @@ from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.simulate import Simulation
-from graphfx.cook.writing import Writer, attributes_of
+from graphfx.cook.writing import Writer
 from graphfx.errors import OutputError, UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
@@ -119,9 +119,9 @@ class Effect:
                     raise
                 if waiting is not None:
                     yield _finished(*waiting)
-                jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path],
-                                    attributes_of(image, simulation, frame)) for image in self.plan.stills]
-                jobs += [pool.submit(writer.add, movie, films[movie.image.node.path]) for movie in movies]
+                jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path], frame)
+                        for image in self.plan.stills]
+                jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
                 waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
             if waiting is not None:
                 yield _finished(*waiting)
@@ -182,7 +182,7 @@ class Effect:
         from PIL import Image
 
         writer = Writer(self.plan, threads or available_threads())
-        return Image.fromarray(writer.displayed(self.plan.images[image], self.film(frame, threads, image)))
+        return Image.fromarray(writer.displayed(self.plan.images[image], self.film(frame, threads, image), frame))
 
 
 def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:

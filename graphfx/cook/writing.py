@@ -19,6 +19,7 @@ from graphfx.cook.formats import bits_of, ending
 from graphfx.cook.movies import Movie
 from graphfx.cook.simulate import Simulation
 from graphfx.errors import GraphError, GraphfxError, Problem
+from graphfx.motion.clock import Clock
 from graphfx.output.atomic import make_folder
 from graphfx.output.deep import deep_file
 from graphfx.output.display import DISPLAYS, Background, displayed, over
@@ -35,56 +36,75 @@ class Writer:
 
     def __init__(self, plan: Plan, threads: int, memory: int | None = None):
         self.plan, self.threads, self.memory = plan, threads, memory
-        self.backgrounds = backgrounds_of(plan)
+        time = plan.flat.time
+        self.clock = Clock(time.fps, time.first, time.preroll)
+        self.backdrops = backdrops_of(plan)
 
     def draw(self, file: Path | None, image: ImagePlan, simulation: Simulation, frame: int) -> Film:
         """Return the picture of a frame; where it is deep and a file, write its samples there as they come."""
         if file is None or not image.value("deep"):
             return draw_all(image, simulation, frame, self.threads, self.memory)
         types = deep_types(columns_of(image), bits_of(image))
-        exposure = float(image.value("exposure"))
+        exposure = self._exposure(image, frame)
         make_folder(file)
-        with deep_file(file, *image.size, types, attributes_of(image, simulation, frame), self.threads) as deep:
+        with deep_file(file, *image.size, types, self.attributes(image, frame), self.threads) as deep:
             return draw_all(
                 image, simulation, frame, self.threads, self.memory, lambda columns: deep_adder(deep, columns, exposure)
             )
 
-    def write(self, file: Path, image: ImagePlan, film: Film, attributes: dict[str, Any]) -> None:
-        """Write a picture, unless it is deep and there already."""
+    def write(self, file: Path, image: ImagePlan, film: Film, frame: int) -> None:
+        """Write the picture of a frame, unless it is deep and there already."""
         if image.value("deep"):
             return
         make_folder(file)
         if ending(file.name) == ".png":
-            write_png(file, self.displayed(image, film, bits_of(image)), _display(image) == "raw", self.threads)
+            picture = self.displayed(image, film, frame, bits_of(image))
+            write_png(file, picture, _display(image) == "raw", self.threads)
             return
-        light, background = exposed(image, film), self.backgrounds[image.node.path]
+        light, background = self._exposed(image, film, frame), self._background(image, frame)
         if background is not None and {"background", "background_image"} & image.node.given:
             light[..., :3] = over(light, background)
             light[..., 3] = 1.0
-        write_exr(file, light, film.channels, bits_of(image), attributes)
+        write_exr(file, light, film.channels, bits_of(image), self.attributes(image, frame))
 
-    def displayed(self, image: ImagePlan, film: Film, bits: int = 8) -> np.ndarray:
-        """Return a picture as a display is given it, in numbers of 8 or 16 bits."""
-        background = self.backgrounds[image.node.path]
-        return displayed(exposed(image, film), background, _display(image), bits, self.threads)
+    def displayed(self, image: ImagePlan, film: Film, frame: int, bits: int = 8) -> np.ndarray:
+        """Return the picture of a frame as a display is given it, in numbers of 8 or 16 bits."""
+        light, background = self._exposed(image, film, frame), self._background(image, frame)
+        return displayed(light, background, _display(image), bits, self.threads)
 
-    def add(self, movie: Movie, film: Film) -> None:
-        """Add a picture to a movie."""
-        movie.add(self.displayed(movie.image, film, movie.bits))
+    def add(self, movie: Movie, film: Film, frame: int) -> None:
+        """Add the picture of a frame to a movie."""
+        movie.add(self.displayed(movie.image, film, frame, movie.bits))
+
+    def attributes(self, image: ImagePlan, frame: int) -> dict[str, Any]:
+        """Return what an EXR says of a frame besides its pixels."""
+        time, flat = self.clock.time_of(frame), self.plan.flat
+        camera = camera_at(image.camera, time, frame)
+        return {
+            "frame": frame, "time": time, "graph": flat.name, "seed": str(flat.seed),
+            "worldToCamera": world_to_camera(camera), "worldToNDC": world_to_ndc(camera, *image.size),
+        }
+
+    def _exposure(self, image: ImagePlan, frame: int) -> float:
+        return float(image.value("exposure", self.clock.time_of(frame), frame))
+
+    def _exposed(self, image: ImagePlan, film: Film, frame: int) -> np.ndarray:
+        """Return a film with its light scaled by 2 to the power of the exposure."""
+        scaled = film.pixels.copy()
+        scaled[..., :3] *= np.float32(2.0 ** self._exposure(image, frame))
+        return scaled
+
+    def _background(self, image: ImagePlan, frame: int) -> Background:
+        """Return what is behind a picture: a linear colour, or a picture of it, or nothing."""
+        if image.value("transparent"):
+            return None
+        red, green, blue = (float(part) for part in image.value("background", self.clock.time_of(frame), frame))
+        backdrop = self.backdrops.get(image.node.path)
+        return (red, green, blue) if backdrop is None else over(backdrop, (red, green, blue))
 
 
 def _display(image: ImagePlan) -> str:
     return str(image.value("display") or DISPLAYS[0])
-
-
-def attributes_of(image: ImagePlan, simulation: Simulation, frame: int) -> dict[str, Any]:
-    """Return what an EXR says of a frame besides its pixels."""
-    time, flat = simulation.clock.time_of(frame), simulation.plan.flat
-    camera = camera_at(image.camera, time, frame)
-    return {
-        "frame": frame, "time": time, "graph": flat.name, "seed": str(flat.seed),
-        "worldToCamera": world_to_camera(camera), "worldToNDC": world_to_ndc(camera, *image.size),
-    }
 
 
 def world_to_camera(camera: Camera) -> np.ndarray:
@@ -104,25 +124,16 @@ def world_to_ndc(camera: Camera, width: int, height: int) -> np.ndarray:
     return np.stack([rows[0] / width, rows[1] / height, rows[2], last], axis=1).astype(np.float32)
 
 
-def exposed(image: ImagePlan, film: Film) -> np.ndarray:
-    """Return a film with its light scaled by 2 to the power of the exposure."""
-    scaled = film.pixels.copy()
-    scaled[..., :3] *= np.float32(2.0 ** float(image.value("exposure")))
-    return scaled
-
-
-def backgrounds_of(plan: Plan) -> dict[str, Background]:
-    """Return what is behind each image, by its path; raise GraphError, with their places, for pictures that cannot be read."""
-    found: dict[str, Background] = {}
+def backdrops_of(plan: Plan) -> dict[str, np.ndarray]:
+    """Return the background pictures of images, by their paths; raise GraphError, with their places, for what cannot be read."""
+    found: dict[str, np.ndarray] = {}
     problems = []
     for image in plan.images:
-        red, green, blue = (float(part) for part in image.value("background"))
         file = str(image.value("background_image") or "")
-        found[image.node.path] = None if image.value("transparent") else (red, green, blue)
         if not file or image.value("transparent"):
             continue
         try:
-            found[image.node.path] = read_backdrop(file, image.size, (red, green, blue))
+            found[image.node.path] = read_backdrop(file, image.size)
         except GraphfxError as error:
             value = image.node.arguments["background_image"]
             problems.append(Problem(error.problems[0].message, value.location, value.path))

@@ -210,3 +210,23 @@ def test_polygons_alone(tmp_path, deep):
     middle = {name: np.atleast_1d(channel[16, 24]) for name, channel in channels.items()}
     assert middle["Z"][0] == pytest.approx(4.5, rel=1e-5) and middle["A"][0] == 1
     assert all(middle[name][0] == 0 for name in ("id", "stream", "velocity.X", "world_velocity.Z"))
+
+
+def test_exposure_and_background_may_change_with_time(tmp_path):
+    """Each frame has those of its time, as picture, as light and as samples; a transparent backdrop shows the colour."""
+    from PIL import Image
+
+    Image.fromarray(np.array([[[255, 0, 0, 51]]], np.uint8)).save(tmp_path / "glass.png")
+    changing = {"exposure": {"expr": "24 * time"}, "background": {"expr": "vec(0, 12 * time, 0)"}, "bits": 32}
+    emit = STILL | {"count": 1, "set": {"position": [0, 0, 0], "radius": 1, "color": [0.125, 0, 0]}}
+    given = graph((), emit, None, {"camera": "look", "file": "a.##.exr", **changing}, {"look": FLAT})
+    given["nodes"]["b"] = given["nodes"]["frames"] | {"file": "b.##.exr", "deep": True}
+    given["nodes"]["c"] = given["nodes"]["frames"] | {"file": "c.##.png", "bits": 8, "background_image": "glass.png"}
+    out = tmp_path / "out"
+    effect(given, (), tmp_path).cook(out, [1, 2])
+    first, light, samples = (read(out / name) for name in ("a.01.exr", "a.02.exr", "b.02.exr"))
+    assert first["R"][16, 24] == pytest.approx(0.125, rel=0.1) and first["G"][0, 0] == 0
+    assert light["R"][16, 24] == pytest.approx(0.25, rel=0.1) and light["G"][0, 0] == 0.5
+    assert samples["R"][16, 24][0] == pytest.approx(0.25, rel=0.1)
+    with Image.open(out / "c.02.png") as opened:
+        assert opened.getpixel((0, 0)) == (124, 170, 0)
