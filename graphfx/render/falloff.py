@@ -5,6 +5,7 @@ With q = distance / radius:
     linear     1 - q                                          ends at q = 1
     gaussian   (exp(-k q^2) - exp(-k)) / (1 - exp(-k))        k = 4.5: the edge is at three standard deviations
     disc       1, with a ramp one pixel wide across the edge  ends half a pixel outside it
+    a curve    straight lines between points (q, opacity), level before the first and after the last; ends at q = 1
 
 A capsule of radius r and length L has the total (opacity summed over its area, pixels^2)
 
@@ -21,9 +22,12 @@ sqrt(r^2 + q^2 / (4 moment)).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
-LINEAR, GAUSSIAN, DISC = 0, 1, 2
+import numpy as np
+
+LINEAR, GAUSSIAN, DISC, CURVE = 0, 1, 2, 3
 SHARPNESS = 4.5
 """k of the gaussian."""
 EDGE = math.exp(-SHARPNESS)
@@ -55,3 +59,38 @@ FALLOFFS = {
     ),
     "disc": Falloff(DISC, 2.0, math.pi, 1 / 4, DISC_RAMP),
 }
+Points = Sequence[tuple[float, float]]
+
+
+def curve_of(points: Points) -> Falloff:
+    """Return the falloff of a curve."""
+    starts, values, slopes = _lines(points)
+    ends, levels = np.append(starts[1:], 1.0), values - slopes * starts
+
+    def integral(power: int) -> float:
+        """Return the integral of q^power times the curve, from 0 to 1."""
+        low, high = power + 1, power + 2
+        return float((levels * (ends**low - starts**low) / low + slopes * (ends**high - starts**high) / high).sum())
+
+    if not integral(1) > 0.0:
+        raise ValueError("a falloff is 0 everywhere; nothing would be drawn")
+    return Falloff(CURVE, 2 * integral(0), 2 * math.pi * integral(1), integral(3) / (2 * integral(1)), 0.0)
+
+
+def curve_table(points: Points) -> np.ndarray:
+    """Return what kernels read of a curve, float32: how many lines, then of each where it starts, its value there, its slope."""
+    lines = np.stack(_lines(points), axis=1)
+    return np.append(len(lines), lines.reshape(-1)).astype(np.float32)
+
+
+def _lines(points: Points) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return where the straight lines of a curve start, from 0 on, their values there, and their slopes."""
+    places, values = (np.array([point[k] for point in points], np.float64) for k in range(2))
+    rising = len(places) > 0 and (np.diff(places) > 0).all() and places[0] >= 0 and places[-1] <= 1
+    if not rising or not ((values >= 0) & (values <= 1)).all():
+        raise ValueError("the points of a falloff are pairs (q, opacity) of numbers from 0 to 1, q rising")
+    starts = np.concatenate([[0.0], places]) if places[0] > 0 else places
+    values = np.interp(starts, places, values)
+    slopes = np.append(np.diff(values) / np.diff(starts), 0.0)
+    keep = starts < 1
+    return starts[keep], values[keep], slopes[keep]

@@ -23,10 +23,11 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.lanes import iota, register
+from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.math import exp2
 from graphfx.math.primitives import floor, maximum, minimum, sqrt, where
-from graphfx.render.falloff import DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
+from graphfx.render.falloff import CURVE, DISC, DISC_RAMP, EDGE, GAUSSIAN, SHARPNESS
 from graphfx.render.segments import (
     BLUE,
     BLURRED,
@@ -92,6 +93,7 @@ class Local(NamedTuple):
     rest: np.float32
     pace: np.float32
     kind: np.int64
+    curve: np.int64
 
 
 @inner
@@ -156,6 +158,7 @@ def localize(segments, q, left, top):
         F(k0 + first * key_way), F(share * key_way),
         min(k0, k1), max(k0, k1), F(first), F(share), reach,
         pace if kind & SOLID else F(0.0), F(0.0) if kind & SOLID else pace, kind,
+        segments.curve[q] if kind & 3 == CURVE else np.int64(0),
     )
 
 
@@ -206,6 +209,16 @@ def beyond_joint(local, group):
 
 
 @inner
+def on_curve(table, q):
+    """Return a curve's value at q; its lines lie at an address, see falloff.py."""
+    value = q * 0.0
+    for line in range(int(float_at(table, 0))):
+        start, first, slope = float_at(table, 3 * line + 1), float_at(table, 3 * line + 2), float_at(table, 3 * line + 3)
+        value = where(q >= start, first + (q - start) * slope, value)
+    return value
+
+
+@inner
 def fragments(local, group, square):
     """Return (key, opacity at the full opacity of 1, t, which lanes are touched); `square` says perspective."""
     t, distance = nearest_point(local, group)
@@ -225,6 +238,8 @@ def fragments(local, group, square):
         q = minimum(distance / clamped, 1.0)
         shape = (exp2(q * q * FALL) - EDGE) * (1.0 / (1.0 - EDGE))
         shape = where(distance < clamped, shape, 0.0)
+    elif code == CURVE:
+        shape = where(distance < clamped, on_curve(local.curve, distance / clamped), 0.0)
     else:
         shape = (clamped - distance) / clamped
     if local.kind & THIN:

@@ -9,6 +9,7 @@ import numpy as np
 from graphfx.lanes import compiled
 from graphfx.lanes.bits import prefetch
 from graphfx.lanes.inner import inner
+from graphfx.render.falloff import CURVE
 from graphfx.render.segments import BLURRED, JOINED_HEAD, JOINED_TAIL, Segments, empty_segments
 from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
@@ -69,6 +70,8 @@ def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
         if len(source.tails):
             for c in range(4):
                 target.tails[i, c] = source.tails[row, c]
+        if source.kind[row] & 3 == CURVE:
+            target.curve[i] = source.curve[row]
         if source.kind[row] & BLURRED:
             for c in range(4):
                 target.focus[i, c] = source.focus[row, c]
@@ -80,8 +83,7 @@ def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
 def ordered(segments: Segments, rows: np.ndarray, threads: int) -> Segments:
     """Return the segments of `rows`, nearest first; equals stay in the order of stream and particle."""
     order = rows[stable_argsort(segments.nearest[rows], threads)]
-    optional = (segments.tails, segments.particle, segments.focus, segments.joints)
-    packed = empty_segments(len(rows), *(len(column) > 0 for column in optional))
+    packed = empty_segments(len(rows), segments.extras)
     bounds = ranges(len(rows), threads, GRAIN)
     parallel_ranges(lambda _, start, stop: _pack(segments, order, start, stop, packed), bounds, threads)
     return packed

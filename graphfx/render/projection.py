@@ -22,6 +22,7 @@ import numpy as np
 from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
 from graphfx.render.evenness import evenness
+from graphfx.render.falloff import CURVE
 from graphfx.render.joints import joints_of, write_joints
 from graphfx.render.order import ordered_word
 from graphfx.render.segments import (
@@ -123,7 +124,7 @@ def touches(segment, reach, window):
 
 
 @inner
-def _write_place(segment, pace, kind, segments, at):
+def _write_place(segment, pace, kind, look, segments, at):
     """Write where a segment is."""
     x, y, dx, dy, r0, r1, k0, k1 = segment
     places, values = segments.places, segments.values
@@ -131,6 +132,8 @@ def _write_place(segment, pace, kind, segments, at):
     values[at, RADIUS0], values[at, RADIUS1] = r0, r1
     values[at, KEY0], values[at, KEY1] = k0 + 0.0, k1 + 0.0
     segments.pace[at] = pace
+    if kind & 3 == CURVE:
+        segments.curve[at] = look.curve
     segments.kind[at] = kind
     segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
 
@@ -195,7 +198,7 @@ def _write_segment(columns, i, view, look, window, number, segments, at):
         total = joined_total(sharp, segment, look, joints, portion)
     elif look.exposed:
         factor = portion
-    _write_place(segment, pace, kind, segments, at)
+    _write_place(segment, pace, kind, look, segments, at)
     if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
         return False
     factor *= evenness(segments, at, view.perspective, total)

@@ -12,7 +12,7 @@ from graphfx.render.camera import Camera
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.patches import Counts, Patch, whole_picture
 from graphfx.render.projection import project
-from graphfx.render.segments import Segments, empty_segments, segment_bytes
+from graphfx.render.segments import Extras, Segments, empty_segments, segment_bytes
 from graphfx.render.streaks import Streaks, addresses
 from graphfx.render.survey import count_keys, survey
 from graphfx.render.view import Look, Slab, View, Window, look_of, view_of
@@ -47,9 +47,7 @@ class Scene:
     width: int
     height: int
     pieces: list[Piece]
-    varies: bool
-    joined: bool
-    sampled: bool
+    extras: Extras
     threads: int
     reaches: tuple[np.ndarray, np.ndarray] | None = None
 
@@ -59,14 +57,9 @@ class Scene:
         return self.pieces[-1].first + self.pieces[-1].stop - self.pieces[-1].start if self.pieces else 0
 
     @property
-    def needs(self) -> tuple[bool, bool, bool, bool]:
-        """Return which columns any segment needs that not all do (see segments.py)."""
-        return self.varies, self.sampled, self.view.blurred, self.joined
-
-    @property
     def segment_bytes(self) -> int:
         """Return the memory that one segment takes while it is put in order."""
-        return segment_bytes(*self.needs)
+        return segment_bytes(self.extras)
 
     def window(self, patch: Patch, slab: Slab = EVERYWHERE) -> Window:
         """Return the part of the picture that is a patch."""
@@ -81,7 +74,7 @@ class Scene:
         window = self.window(patch)
         rooms = np.array([self._room(piece, patch) for piece in self.pieces], np.int64)
         starts = offsets(rooms)
-        segments = empty_segments(int(starts[-1]), *self.needs)
+        segments = empty_segments(int(starts[-1]), self.extras)
         kept, dropped = [0] * len(self.pieces), [0] * len(self.pieces)
 
         def work(number: int) -> None:
@@ -94,7 +87,7 @@ class Scene:
 
     def slab_segments(self, patch: Patch, slab: Slab, most: int) -> tuple[Segments, np.ndarray]:
         """Return the segments of a slab of a patch, at most so many."""
-        segments, at = empty_segments(most + 1, *self.needs), 0
+        segments, at = empty_segments(most + 1, self.extras), 0
         for piece in self.pieces:
             if slab.start < piece.first + piece.stop - piece.start and piece.first < slab.stop:
                 at += self._project(piece, self.window(patch, slab), segments, at)[0]
@@ -161,5 +154,6 @@ def make_scene(
         ]
         first += stream.count
     view = view_of(head, tail, width, height)
-    varies, joined = any(stream.varies for stream in streams), any(stream.is_joined for stream in streams)
-    return Scene(view, width, height, pieces, varies, joined, sampled, threads)
+    varies, curved = any(stream.varies for stream in streams), any(stream.curve is not None for stream in streams)
+    joined = any(stream.is_joined for stream in streams)
+    return Scene(view, width, height, pieces, Extras(varies, sampled, view.blurred, joined, curved), threads)

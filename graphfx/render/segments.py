@@ -25,7 +25,8 @@ SHARP0, SHARP1, CONFUSION0, CONFUSION1 = range(4)
 class Segments(NamedTuple):
     """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need.
 
-    `particle` is the number of the segment's particle among those of all streams, where samples are wanted.
+    `particle` is the number of the segment's particle among those of all streams, where samples are wanted; `curve` is where the
+    table of its falloff lies, where any is a curve.
     """
 
     places: np.ndarray
@@ -37,19 +38,36 @@ class Segments(NamedTuple):
     particle: np.ndarray
     focus: np.ndarray
     joints: np.ndarray
+    curve: np.ndarray
+
+    @property
+    def extras(self) -> Extras:
+        """Return what these segments have."""
+        return Extras(*(len(column) > 0 for column in (self.tails, self.particle, self.focus, self.joints, self.curve)))
 
 
-def segment_bytes(varies: bool, sampled: bool, blurred: bool, joined: bool) -> int:
+class Extras(NamedTuple):
+    """What not all pictures need of segments: colours of tails, numbers of particles, radii in focus, joints, curves."""
+
+    varies: bool
+    sampled: bool
+    blurred: bool
+    joined: bool
+    curved: bool
+
+
+def segment_bytes(extras: Extras) -> int:
     """Return the most memory that a segment takes while it is put in order: two rows of all columns, and three row numbers."""
-    return 2 * (64 + 16 * varies + 8 * sampled + 16 * blurred + 16 * joined + 9) + 12
+    more = 16 * (extras.varies + extras.blurred + extras.joined) + 8 * (extras.sampled + extras.curved)
+    return 2 * (64 + 9 + more) + 12
 
 
-def empty_segments(count: int, varies: bool, sampled: bool, blurred: bool, joined: bool) -> Segments:
+def empty_segments(count: int, extras: Extras) -> Segments:
     """Return room for `count` segments; what not all need, only where any needs it."""
     places = np.empty((count, 8), np.float64)
     return Segments(
-        places, places.view(np.float32), np.empty((count if varies else 0, 4), np.float32),
+        places, places.view(np.float32), np.empty((count * extras.varies, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
-        np.empty(count if sampled else 0, np.int64), np.empty((count if blurred else 0, 4), np.float32),
-        np.empty((count if joined else 0, 4), np.float32),
+        np.empty(count * extras.sampled, np.int64), np.empty((count * extras.blurred, 4), np.float32),
+        np.empty((count * extras.joined, 4), np.float32), np.empty(count * extras.curved, np.int64),
     )

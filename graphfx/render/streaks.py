@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphfx.render.falloff import FALLOFFS
+from graphfx.render.falloff import FALLOFFS, Points, curve_table
 
 Column = np.ndarray | float
 Color = np.ndarray | tuple[float, float, float]
@@ -33,7 +33,7 @@ class Streaks:
     | `head_moment`, `tail_moment` | 0 to 1 | when head and tail are seen: 0 by the head camera, 1 by the tail camera |
     | `ahead_moment`, `behind_moment` | | when those ends are seen |
     | `blend` | | `over`, or `add`: shines without hiding what is behind |
-    | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc` |
+    | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc`, or points (q, opacity) |
     | `rows` | | the numbers of those that are drawn, in their order; all if not given |
     | `streak` | | `exposed`: each point has the opacity of the time spent over it; `solid`: full opacity all along |
 
@@ -58,15 +58,16 @@ class Streaks:
     ahead_moment: Column = 0.0
     behind_moment: Column = 1.0
     blend: str = "over"
-    falloff: str = "linear"
+    falloff: str | Points = "linear"
     streak: str = "exposed"
     rows: np.ndarray | None = None
 
     def __post_init__(self) -> None:
         """Refuse a name that is not known."""
         for name, known in (("blend", BLENDS), ("falloff", tuple(FALLOFFS)), ("streak", MODES)):
-            if getattr(self, name) not in known:
+            if getattr(self, name) not in known and (name != "falloff" or isinstance(self.falloff, str)):
                 raise ValueError(f"{name} is {getattr(self, name)!r}; it must be one of {', '.join(known)}")
+        self.curve = None if isinstance(self.falloff, str) else curve_table(self.falloff)
 
     @property
     def given(self) -> int:

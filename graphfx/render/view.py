@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.render.camera import Camera
-from graphfx.render.falloff import FALLOFFS
+from graphfx.render.falloff import FALLOFFS, curve_of
 from graphfx.render.streaks import Streaks
 
 
@@ -71,7 +71,7 @@ class Window(NamedTuple):
 
 
 class Look(NamedTuple):
-    """How one stream looks: see Falloff; `spread` is 1 / sqrt(4 moment), `sign` -1 for `add`."""
+    """How one stream looks: see Falloff; `spread` is 1 / sqrt(4 moment), `sign` -1 for `add`, `curve` where its table lies."""
 
     code: int
     width: float
@@ -81,11 +81,13 @@ class Look(NamedTuple):
     sign: float
     exposed: bool
     varies: bool
+    curve: int
 
 
 def look_of(stream: Streaks) -> Look:
     """Return how a stream looks."""
-    falloff = FALLOFFS[stream.falloff]
+    falloff = FALLOFFS[stream.falloff] if isinstance(stream.falloff, str) else curve_of(stream.falloff)
+    curve = 0 if stream.curve is None else stream.curve.ctypes.data
     sign, spread = -1.0 if stream.blend == "add" else 1.0, 0.5 / math.sqrt(falloff.moment)
     exposed = stream.streak == "exposed"
-    return Look(falloff.code, falloff.width, falloff.area, spread, falloff.reach, sign, exposed, stream.varies)
+    return Look(falloff.code, falloff.width, falloff.area, spread, falloff.reach, sign, exposed, stream.varies, curve)
