@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 from graphfx.errors import Location, suggestion
 from graphfx.graph.checking import Checking, declared, listed, nearest
@@ -91,7 +92,8 @@ def _look(checking: Checking, item: Item, path: str) -> list[StreamReference]:
         given = item.value.get(key)
         if given is None:
             continue
-        found = checking.choice(given, f"{path}.{key}", key, choices)
+        curved = key == "falloff" and given.is_object
+        found = _curve(checking, given, f"{path}.{key}") if curved else checking.choice(given, f"{path}.{key}", key, choices)
         if found:
             looks[key] = found
     stream = item.value.get("stream")
@@ -101,6 +103,24 @@ def _look(checking: Checking, item: Item, path: str) -> list[StreamReference]:
     text = checking.text(stream, f"{path}.stream", "a stream, the id of a node,")
     node, _, port = text.partition(".")
     return [StreamReference(node, port, stream.location, f"{path}.stream", looks)] if text else []
+
+
+def _curve(checking: Checking, item: Item, path: str) -> tuple[tuple[float, float], ...]:
+    """Return the points of a falloff of one's own: pairs of q = distance / radius and the opacity there, both 0 to 1."""
+    checking.unknown_keys(item, path, ("ramp",), "a falloff")
+    ramp = item.value.get("ramp")
+    if ramp is None and item.value:
+        return ()
+    rows = ramp.value if ramp is not None and ramp.is_list else []
+    pairs = [row.value for row in rows if row.is_list and len(row.value) == 2]
+    points = [(float(q.value), float(opacity.value)) for q, opacity in pairs if q.is_number and opacity.is_number]
+    rising = all(one[0] < other[0] for one, other in pairwise(points))
+    inside = all(0 <= q <= 1 and 0 <= opacity <= 1 for q, opacity in points)
+    if len(points) == len(rows) and rising and inside and any(opacity > 0 for _, opacity in points):
+        return tuple(points)
+    checking.complain((ramp or item).location, path, "a falloff of one's own is {\"ramp\": [[q, opacity], ...]}: q is the distance "
+                      "from the centre over the radius, both numbers from 0 to 1, q rising, and some opacity more than 0")
+    return ()
 
 
 def _drawable(checking: Checking, node: Entry, reference: StreamReference) -> bool:

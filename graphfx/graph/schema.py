@@ -145,8 +145,11 @@ def _type(node_type: NodeType) -> Schema:
 
 def _common(node_type: NodeType) -> Schema:
     stream = {"$ref": "#/$defs/stream"}
-    look = _closed({"stream": stream, **{key: {"enum": list(choices), "default": choices[0]} for key, choices in LOOKS.items()}},
-                   ("stream",))
+    look: Schema = {key: {"enum": list(choices), "default": choices[0]} for key, choices in LOOKS.items()}
+    point = {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "number", "minimum": 0, "maximum": 1}}
+    ramp = {"ramp": {"type": "array", "items": point, "minItems": 1}}
+    look["falloff"] = {"anyOf": [look["falloff"], _closed(ramp, ("ramp",), "Opacity over distance / radius.")]}
+    look = _closed({"stream": stream, **look}, ("stream",))
     source = {"anyOf": [stream, look]} if node_type.role in PICTURES else stream
     return {
         "type": {"const": node_type.name},

@@ -1,7 +1,8 @@
 """Image: draw streams and polygons into one picture per frame.
 
 An entry of `from` is the id of a `polygons` node or of one that makes a stream, or `{"stream": id, "blend": "over" |
-"add", "falloff": "linear" | "gaussian" | "disc", "streak": "exposed" | "solid"}`. [Sims 1990, 4]
+"add", "falloff": "linear" | "gaussian" | "disc", "streak": "exposed" | "solid"}`; a falloff of one's own is
+`{"ramp": [[0, 1], [0.8, 0.9], [1, 0]]}`, opacity over the distance from the centre over the radius. [Sims 1990, 4]
 
 The shutter is open from phase + shutter to phase frames before the frame's time: with a shutter of 1.2 streaks overlap from
 frame to frame, and with a phase of 0.25 a shutter of 0.5 is open around half a frame before. Ways bend at hits, begin at
