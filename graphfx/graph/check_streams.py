@@ -118,8 +118,8 @@ def _curve(checking: Checking, item: Item, path: str) -> tuple[tuple[float, floa
     inside = all(0 <= q <= 1 and 0 <= opacity <= 1 for q, opacity in points)
     if len(points) == len(rows) and rising and inside and any(opacity > 0 for _, opacity in points):
         return tuple(points)
-    checking.complain((ramp or item).location, path, "a falloff of one's own is {\"ramp\": [[q, opacity], ...]}: q is the distance "
-                      "from the centre over the radius, both numbers from 0 to 1, q rising, and some opacity more than 0")
+    wanted = 'a falloff of one\'s own is {"ramp": [[q, opacity], ...]}: q is the distance from the centre over the radius, '
+    checking.complain((ramp or item).location, path, wanted + "both numbers from 0 to 1, q rising, and some opacity more than 0")
     return ()
 
 

@@ -80,17 +80,3 @@ def test_what_is_no_curve_is_refused(points):
     """Points out of order or out of range, and a curve that shows nothing."""
     with pytest.raises(ValueError, match="falloff"):
         film(Streaks(np.zeros((3, 1), np.float32), None, 1.0, falloff=points), camera=CAMERA)
-
-
-def test_a_graph_gives_its_ramp_to_the_picture():
-    """What an image says of a falloff is what its particles show."""
-    from ..cook.effects import effect, graph
-
-    def alpha(falloff):
-        emit = {"rate": 0, "count": 1, "set": {"radius": 1, "position": [0, 2, 0], "velocity": [0, 0, 0]}}
-        document = graph([], emit, {"frames": [1, 1]})
-        document["nodes"]["frames"]["from"] = {"stream": "sky", "falloff": falloff}
-        return effect(document).film(1).pixels[..., 3]
-
-    flat, linear = alpha({"ramp": [[0, 0.25]]}), alpha("linear")
-    assert flat.max() == pytest.approx(0.25) and (flat > 0).sum() == (linear > 0).sum() > 10
