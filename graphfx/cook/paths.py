@@ -1,9 +1,6 @@
-"""The ways of particles while the shutter is open: straight where that will do, in pieces where they bend.
+"""The ways of particles while the shutter is open: through their places now, at the instants that are kept, and at their hits.
 
-A way goes through the places of a particle at known times: now, at the instants that are kept, at its hits; from its
-birth or the shutter's opening to its end or the shutter's closing. Between them it is straight and even. It is drawn
-as one streak if at all these times the straight, even way from its first place to its last is within half a radius
-of it, and else as a piece from each place to the next. Where two pieces go on without a sharp turn they are joined.
+A way begins at the particle's birth or the shutter's opening, and ends at its death or the shutter's closing.
 """
 
 from __future__ import annotations
@@ -15,12 +12,7 @@ import numpy as np
 
 from graphfx.cook.particles import Bends, Particles
 from graphfx.plan.shutter import EDGE, Instant
-
-NEAR = 0.5
-"""Radii within which a straight way will do."""
-STRAIGHT = {"exposed": 0.7, "solid": -0.9}
-"""Cosine of the angle up to which a piece goes on in the next: where a way turns back, its light is seen twice, but a solid
-streak is one body."""
+from graphfx.render.ways import Ways
 
 
 class Window(NamedTuple):
@@ -76,30 +68,6 @@ def lives_of(particles: Particles, window: Window) -> Lives | None:
     return Lives(begin, end, ((born <= window.closing) & (death > window.closing)).astype(float))
 
 
-@dataclass
-class Ways:
-    """Ways of n particles: `times` (m, n) [s], the latest first, and `places` (3, m, n)."""
-
-    times: np.ndarray
-    places: np.ndarray
-
-    def at(self, times: np.ndarray) -> np.ndarray:
-        """Return the places (3, n) at a time of each; before the first and after the last it stays where it is."""
-        found = self.places[:, 0].copy()
-        for k in range(1, len(self.times)):
-            before = times < self.times[k - 1]
-            found[:, before] = _between(self, k, times)[:, before]
-        return found
-
-
-def _between(ways: Ways, k: int, times: np.ndarray) -> np.ndarray:
-    """Return the places at times, on the way from point k to the one after it in time."""
-    late, early = ways.times[k - 1], ways.times[k]
-    length = late - early
-    share = np.divide(late - times, length, out=np.zeros(len(times)), where=length > 0)
-    return ways.places[:, k - 1] + np.clip(share, 0.0, 1.0) * (ways.places[:, k] - ways.places[:, k - 1])
-
-
 def ways_of(particles: Particles, rows: np.ndarray, window: Window) -> Ways:
     """Return the ways of rows through the instants that are kept."""
     store, exposure = particles.store, particles.plan.exposure
@@ -138,68 +106,3 @@ def with_bends(ways: Ways, bends: Bends, rows: np.ndarray) -> Ways:
     times, places = np.concatenate([ways.times, times]), np.concatenate([ways.places, places], axis=1)
     order = np.argsort(-times, axis=0, kind="stable")
     return Ways(np.take_along_axis(times, order, 0), np.take_along_axis(places, order[None], 1))
-
-
-def within(ways: Ways, begin: np.ndarray, end: np.ndarray) -> Ways:
-    """Return what lies between two times of each: what is outside is moved to the nearer end."""
-    head, tail = ways.at(end), ways.at(begin)
-    after, before = ways.times > end, ways.times < begin
-    times = np.where(after, end, np.where(before, begin, ways.times))
-    places = np.where(after, head[:, None], np.where(before, tail[:, None], ways.places))
-    times = np.concatenate([end[None], times, begin[None]])
-    return Ways(times, np.concatenate([head[:, None], places, tail[:, None]], axis=1))
-
-
-def are_straight(ways: Ways, radius: np.ndarray | float) -> np.ndarray:
-    """Return which ways a straight and even one will do for."""
-    head, tail = ways.places[:, :1], ways.places[:, -1:]
-    length = ways.times[0] - ways.times[-1]
-    share = np.divide(ways.times[0] - ways.times, length, out=np.zeros_like(ways.times), where=length > 0)
-    away = ways.places - (head + share * (tail - head))
-    return ~(np.sqrt((away**2).sum(axis=0)).max(axis=0) > NEAR * np.maximum(radius, 0.0))
-
-
-class Pieces(NamedTuple):
-    """Pieces of ways: whose they are, by place among the ways; their ends (3, n), and when these are [s]; and their joints.
-
-    `ahead` and `behind` are the other ends of the pieces in which a piece goes on, at its head and at its tail.
-    """
-
-    owner: np.ndarray
-    head: np.ndarray
-    tail: np.ndarray
-    head_time: np.ndarray
-    tail_time: np.ndarray
-    joined: np.ndarray
-    ahead: np.ndarray
-    behind: np.ndarray
-    ahead_time: np.ndarray
-    behind_time: np.ndarray
-
-    def chosen(self, which: np.ndarray) -> Pieces:
-        """Return some of them."""
-        return Pieces(*(column[..., which] for column in self))
-
-
-def pieces_of(ways: Ways, straight: float) -> Pieces:
-    """Return the pieces of ways, those of one after another, the latest first; what takes no time is left out.
-
-    Two go on in each other if the cosine of the angle between them is more than `straight`.
-    """
-    taken = ways.times[:-1] > ways.times[1:]
-    owner, number = np.nonzero(taken.T)
-    head, tail = ways.places[:, number, owner], ways.places[:, number + 1, owner]
-    way = tail - head
-    length = np.sqrt((way**2).sum(axis=0))
-    follows = owner[1:] == owner[:-1]
-    joint = follows & ((way[:, 1:] * way[:, :-1]).sum(axis=0) > straight * length[1:] * length[:-1])
-    joint &= (length[1:] > 0) & (length[:-1] > 0)
-    joined = np.zeros(len(owner), np.float32)
-    joined[1:] += joint
-    joined[:-1] += 2 * joint
-    head_time, tail_time = ways.times[number, owner], ways.times[number + 1, owner]
-    last = len(owner) - 1
-    before, after = np.maximum(np.arange(last + 1) - 1, 0), np.minimum(np.arange(last + 1) + 1, last)
-    return Pieces(
-        owner, head, tail, head_time, tail_time, joined, head[:, before], tail[:, after], head_time[before], tail_time[after]
-    )

@@ -8,20 +8,9 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.particles import Particles
-from graphfx.cook.paths import (
-    STRAIGHT,
-    Lives,
-    Pieces,
-    Ways,
-    Window,
-    are_straight,
-    lives_of,
-    pieces_of,
-    ways_of,
-    with_bends,
-    within,
-)
+from graphfx.cook.paths import Lives, Window, lives_of, ways_of, with_bends
 from graphfx.render.streaks import Streaks
+from graphfx.render.ways import STRAIGHT, Chords, Pieces, chords_of, pieces_of, within
 
 
 @dataclass
@@ -72,30 +61,35 @@ class _Drawing:
         now = window.closing >= window.time
         if not instants or (now and window.length <= 0):
             return [(self._whole(rows, self._column("position", rows), None), rows)]
-        kept = now and window.is_kept(instants)
-        bent = rows[np.isin(rows, self.particles.bends.rows)] if kept else rows
-        ways = self._ways(bent)
-        straight = are_straight(ways, self._radius(bent))
-        if kept:
-            plain = rows if straight.all() else rows[~np.isin(rows, bent[~straight])]
-            made = [(self._whole(plain, self._column("position", plain), self._column(instants[-1].column, plain)), plain)]
-        else:
-            ends = [ways.places[:, end][:, straight] for end in (0, -1)]
-            made = [(self._whole(bent[straight], *ends), bent[straight])]
-        if straight.all():
-            return made
-        pieces = pieces_of(
-            Ways(ways.times[:, ~straight], ways.places[:, :, ~straight]), STRAIGHT[self.look.get("streak", "exposed")]
-        )
-        return [*made, self._in_pieces(bent[~straight], self._seen(pieces))]
+        has_bends = np.isin(rows, self.particles.bends.rows) if len(self.particles.bends.rows) else np.zeros(len(rows), bool)
+        bent = rows[has_bends]
+        if now and window.is_kept(instants):
+            straight, _, in_pieces = self._ways(bent, True)
+            rest = rows if straight.all() else rows[~np.isin(rows, bent[~straight])]
+            tail = self._column(instants[-1].column, rest)
+            return [(self._whole(rest, self._column("position", rest), tail), rest), *in_pieces]
+        made: list[tuple[Streaks, np.ndarray]] = []
+        for group, with_hits in ((rows if not len(bent) else rows[~has_bends], False), (bent, True)):
+            straight, chords, in_pieces = self._ways(group, with_hits)
+            whole = group if straight.all() else group[straight]
+            made += [(self._whole(whole, chords.head[:, straight], chords.tail[:, straight]), whole), *in_pieces]
+        return made
 
-    def _ways(self, rows: np.ndarray) -> Ways:
-        """Return the ways of rows while they are seen."""
+    def _ways(self, rows: np.ndarray, with_hits: bool) -> tuple[np.ndarray, Chords, list[tuple[Streaks, np.ndarray]]]:
+        """Return which of rows have straight ways while they are seen, their chords, and the others in pieces."""
         ways = ways_of(self.particles, rows, self.window)
-        if len(self.particles.bends.rows) and len(rows):
+        if with_hits and len(rows):
             ways = with_bends(ways, self.particles.bends, rows)
         begin, end = self._begin(rows), self._end(rows)
-        return within(ways, begin, end)
+        chords = chords_of(ways, begin, end, self._radius(rows), self.particles.store.threads)
+        bent = ~chords.straight
+        if not bent.any():
+            return chords.straight, chords, []
+        ends = Chords(chords.head[:, bent], chords.tail[:, bent], chords.straight[bent])
+        pieces = pieces_of(
+            within(ways.chosen(bent), begin[bent], end[bent], ends), STRAIGHT[self.look.get("streak", "exposed")]
+        )
+        return chords.straight, chords, [self._in_pieces(rows[bent], self._seen(pieces))]
 
     def _begin(self, rows: np.ndarray) -> np.ndarray:
         return np.full(len(rows), self.window.opening) if self.lives is None else self.lives.begin[rows]
@@ -168,9 +162,9 @@ class _Drawing:
 
 def way_of(shown: Shown, window: Window) -> Streaks:
     """Return where particles that were drawn still went in a window, straight from its opening to its closing."""
-    lives = lives_of(shown.particles, window)
+    rows, lives = shown.rows, lives_of(shown.particles, window)
     drawing = _Drawing(shown.particles, {}, window, lives, False)
     if not shown.particles.plan.exposure.instants:
-        return drawing._whole(shown.rows, shown.streaks.head, None)
-    ways = drawing._ways(shown.rows)
-    return drawing._whole(shown.rows, ways.places[:, 0], ways.places[:, -1])
+        return drawing._whole(rows, shown.streaks.head, None)
+    chords = chords_of(ways_of(shown.particles, rows, window), drawing._begin(rows), drawing._end(rows), 0.0)
+    return drawing._whole(rows, chords.head, chords.tail)

@@ -47,10 +47,12 @@ def draw_small() -> None:
     from graphfx.render.camera import Camera
     from graphfx.render.renderer import render
     from graphfx.render.streaks import Streaks
+    from graphfx.render.ways import Ways, chords_of
 
     head = np.random.default_rng(0).uniform(-1, 1, (3, ENOUGH)).astype(np.float32)
     camera = Camera()
     render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1)
+    chords_of(Ways(np.zeros((1, 1)), np.zeros((3, 1, 1))), np.zeros(1), np.zeros(1), 1.0)
     _mark().touch()
 
 
