@@ -61,6 +61,8 @@ def test_samples_belong_to_one_of_two_triangles(opacity):
     for _ in range(20):
         middle = draw.uniform(-20, 20, 2)
         corners = np.array([[-25.3, -24.7, 0], [26.1, -25.9, 0], [24.4, 27.2, 0], [-26.6, 23.5, 0], [*middle, 0]])
+        if draw.random() < 0.5:
+            corners = np.round(corners * 4) / 4 + 1 / 32  # samples lie on edges
         fan = Polygons(corners, np.array([[k, (k + 1) % 4, 4] for k in range(4)]), opacity=opacity, shading="unlit")
         two = Polygons(corners[:4], np.array([[0, 1, 2], [2, 3, 0]]), opacity=opacity, shading="unlit")
         np.testing.assert_allclose(flat(fan), flat(two), rtol=0, atol=1e-6)
