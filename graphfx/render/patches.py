@@ -38,11 +38,13 @@ class Counts:
     """How many boxes reach into rectangles of tiles.
 
     `corners` (4, rows + 1, columns + 1) counts boxes by their first and last tile, as (first row, first column),
-    (first row, last column + 1), (last row + 1, first column), (last row + 1, last column + 1).
+    (first row, last column + 1), (last row + 1, first column), (last row + 1, last column + 1). `beside` (rows, columns) are
+    the bytes that each tile needs beside segments.
     """
 
-    def __init__(self, corners: np.ndarray, segment_bytes: int):
+    def __init__(self, corners: np.ndarray, segment_bytes: int, beside: np.ndarray | None = None):
         self.segment_bytes = segment_bytes
+        self.beside = None if beside is None else np.pad(beside.cumsum(axis=0).cumsum(axis=1), ((1, 0), (1, 0)))
         before = corners.cumsum(axis=1).cumsum(axis=2)
         self.corners = np.pad(before, ((0, 0), (1, 0), (1, 0)))
         each = (before[0] - before[1] - before[2] + before[3])[:-1, :-1]
@@ -62,12 +64,25 @@ class Counts:
 
     def members(self, patch: Patch) -> int:
         """Return how many times a box reaches into a tile of the patch."""
-        left, top, right, bottom = patch
-        return int(self.pairs[bottom, right] - self.pairs[top, right] - self.pairs[bottom, left] + self.pairs[top, left])
+        return _within(self.pairs, patch)
+
+    def memory_beside(self, patch: Patch) -> int:
+        """Return the bytes that a patch needs beside segments."""
+        return 0 if self.beside is None else _within(self.beside, patch)
+
+    def memory_of_segments(self, patch: Patch) -> int:
+        """Return the bytes that the segments of a patch need, at most."""
+        return self.boxes(patch) * self.segment_bytes + self.members(patch) * MEMBER_BYTES
 
     def memory(self, patch: Patch) -> int:
         """Return the bytes that a patch needs, at most."""
-        return self.boxes(patch) * self.segment_bytes + self.members(patch) * MEMBER_BYTES
+        return self.memory_of_segments(patch) + self.memory_beside(patch)
+
+
+def _within(sums: np.ndarray, patch: Patch) -> int:
+    """Return what a patch holds of something whose sums over rows and columns before are known."""
+    left, top, right, bottom = patch
+    return int(sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left])
 
 
 def false_position(function: Callable[[int], float], low: int, high: int, wanted: float) -> int:

@@ -15,20 +15,23 @@ from graphfx.render.bins import bin_segments
 from graphfx.render.camera import Camera
 from graphfx.render.compositing import Slabs, composite, composite_slabs
 from graphfx.render.film import Film
-from graphfx.render.layers import Layers, Surfaces
+from graphfx.render.layers import Layers
 from graphfx.render.order import ordered
-from graphfx.render.patches import MEMBER_BYTES, Counts, Patch, patches_within, whole_picture
+from graphfx.render.patches import MEMBER_BYTES, Patch, patches_within, whole_picture
 from graphfx.render.polygons import Lighting, Polygons
 from graphfx.render.samples import Samples, sample_bands
 from graphfx.render.scene import Scene, make_scene
 from graphfx.render.segments import Segments
 from graphfx.render.slabs import slabs_of
 from graphfx.render.streaks import Streaks
+from graphfx.render.surfaces import Surfaces
 from graphfx.render.tiles import Tiles
 
 LEAST_MEMORY = 1 << 22
 """Bytes; with less a patch would be made of too few streaks to be worth its beginning."""
 
+LEAST_SHARE = 0.25
+"""Part of the memory that segments have, whatever polygons need beside them."""
 NO_LIGHTS = Lighting()
 Listener = Callable[[str], Any]
 Sampler = Callable[[Samples], Any]
@@ -76,13 +79,16 @@ class _Rendering:
     def run(self) -> None:
         """Render all at once if the memory allows it, or patch by patch."""
         whole = whole_picture(self.scene.width, self.scene.height)
-        if self.scene.count * self.scene.segment_bytes <= self.memory and self._patch(whole, self.memory):
+        beside = None if self.surfaces is None or self.memory == np.inf else self.surfaces.layer_bytes(self.scene.threads)
+        left = self.memory if beside is None else self.memory - beside.sum()
+        if self.scene.count * self.scene.segment_bytes <= left and self._patch(whole, left):
             return
         self.listener("survey")
-        counts, self.film.dropped = self.scene.survey()
+        counts, self.film.dropped = self.scene.survey(beside)
         for patch in patches_within(counts, whole, self.memory, uncut=self.sampler is not None):
-            if counts.memory(patch) > self.memory and self.sampler is None:
-                self._tile_in_slabs(patch, counts)
+            left = max(self.memory - counts.memory_beside(patch), LEAST_SHARE * self.memory)
+            if counts.memory_of_segments(patch) > left and self.sampler is None:
+                self._tile_in_slabs(patch, left)
             else:
                 self._patch(patch)
 
@@ -129,10 +135,14 @@ class _Rendering:
             for samples in sample_bands(segments, tiles, layers, self.scene.threads):
                 self.sampler(samples)
 
-    def _tile_in_slabs(self, patch: Patch, counts: Counts) -> None:
-        """Render a patch of one tile, a slice of depth after the other."""
-        most = max(int(self.memory) // (counts.segment_bytes + MEMBER_BYTES), 1)
-        slabs, layers = list(slabs_of(self.scene, patch, most)), self._layers(patch)
+    def _tile_in_slabs(self, patch: Patch, memory: float) -> None:
+        """Render a patch of one tile, a slice of depth after the other, each within a memory."""
+        most = max(int(memory) // (self.scene.segment_bytes + MEMBER_BYTES), 1)
+        slabs = list(slabs_of(self.scene, patch, most))
+        if not slabs:
+            self._patch(patch)
+            return
+        layers = self._layers(patch)
 
         def made() -> Iterator[tuple[Segments, Tiles, bool]]:
             for slab in slabs:

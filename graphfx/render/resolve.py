@@ -97,6 +97,14 @@ def shape_of(place, room, left, top):
 
 
 @inner
+def pixels_spanned(place, left, top):
+    """Return how many pixels of the tile at (left, top) the box of a triangle spans."""
+    column, last_column = _span(place[0], place[2], place[4], left, TILE_WIDTH)
+    row, last_row = _span(place[1], place[3], place[5], top, TILE_HEIGHT)
+    return max(last_column - column + 1, 0) * max(last_row - row + 1, 0)
+
+
+@inner
 def pixels_touched(shape):
     """Return how many pixels the triangle may touch."""
     return max(shape.right - shape.left + 1, 0) * max(shape.bottom - shape.top + 1, 0)

@@ -107,8 +107,11 @@ class Scene:
         kept, dropped = project(addresses(columns), self.view, piece.look, window, piece.first, count, segments, at)
         return kept, dropped
 
-    def survey(self) -> tuple[Counts, int]:
-        """Find the rows that each particle reaches, and count what reaches where; return that, and particles dropped."""
+    def survey(self, beside: np.ndarray | None = None) -> tuple[Counts, int]:
+        """Find the rows that each particle reaches, and count what reaches where; return that, and particles dropped.
+
+        `beside` are the bytes that each tile needs beside segments.
+        """
         whole = whole_picture(self.width, self.height)
         kind = np.uint8 if whole.bottom < 255 else np.uint16
         reaches = np.full(self.count, whole.bottom, kind), np.zeros(self.count, kind)
@@ -126,7 +129,7 @@ class Scene:
 
         parallel_ranges(work, bounds, self.threads)
         self.reaches = reaches
-        return Counts(corners.sum(axis=0), self.segment_bytes), sum(dropped)
+        return Counts(corners.sum(axis=0), self.segment_bytes, beside), sum(dropped)
 
     def key_counts(self, patch: Patch, low: int, high: int, shift: int) -> np.ndarray:
         """Count the particles that may touch a patch by (key - low) >> shift, keys as ordered bits from low to high."""

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from graphfx.geometry import sphere
-from graphfx.render import Light, Lighting, Polygons, compositing, layers
+from graphfx.render import Light, Lighting, Polygons, compositing, surfaces
 from graphfx.render.camera import Camera
-from graphfx.render.layers import Surfaces
-from graphfx.render.renderer import render
+from graphfx.render.patches import Patch
+from graphfx.render.renderer import LEAST_MEMORY, render
+from graphfx.render.surfaces import Surfaces
 from graphfx.render.triangles import face_normals
 
 from .meshes import CAMERA, film, triangles
@@ -188,7 +189,7 @@ def test_a_wall_hides_all_work_behind_it():
 def test_threads_change_no_byte(name, threads, monkeypatch):
     """Any number of threads gives the same film, however the work is cut."""
     alone = among(name)
-    monkeypatch.setattr(layers, "FIRST_CAPACITY", 1)
+    monkeypatch.setattr(surfaces, "FIRST_CAPACITY", 1)
     assert among(name, threads).pixels.tobytes() == alone.pixels.tobytes()
 
 
@@ -234,3 +235,20 @@ def test_film_is_finite(seed):
         pixels = film([scene], camera=Camera(near=10.0 ** draw.uniform(-12, 0)), size=(40, 30)).pixels
         assert np.isfinite(pixels).all()
         assert pixels[..., 3].min() >= 0.0 and pixels[..., 3].max() <= 1.0
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_memory_of_layers_is_known_before(name):
+    """No tile takes more than it was said to, and where that is too much the picture is made in patches."""
+    made = Surfaces(SCENES[name](), Lighting(), CAMERA, 61, 50)
+    bound = made.layer_bytes()
+    for row, column in np.ndindex(*bound.shape):
+        layers = made.layers(Patch(column, row, column + 1, row + 1))
+        assert sum(part.nbytes for part in (layers.firsts, layers.keys, layers.masks, layers.values)) <= bound[row, column]
+    steps = []
+    memory = max(int(bound.sum()) // 2, LEAST_MEMORY)
+    whole = render([], CAMERA, None, 610, 500, polygons=SCENES[name]()).pixels
+    apart = render([], CAMERA, None, 610, 500, listener=steps.append, memory=memory, polygons=SCENES[name]()).pixels
+    assert whole.tobytes() == apart.tobytes()
+    wanted = Surfaces(SCENES[name](), Lighting(), CAMERA, 610, 500).layer_bytes().sum()
+    assert (steps.count("polygons") > 2) == (wanted > memory)

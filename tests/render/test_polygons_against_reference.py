@@ -95,9 +95,10 @@ def test_polygons_seen_from_one_side(camera):
 
 def test_equal_depths_go_by_rank():
     """Of what lies at one depth the earlier polygons are before the later, and all of them before particles."""
+    opacities = (0.5, 1.0, 1.0, 0.5)
     sheet = np.array([[-2.0, -2, 0], [2, -2, 0], [0, 2, 0]])
-    scene = [Polygons(sheet + np.array([0.1 * k, 0, 0]), np.array([[0, 1, 2]]), color=np.eye(3)[k % 3], opacity=o, shading="unlit")
-             for k, o in enumerate((0.5, 1.0, 1.0, 0.5))]
+    scene = [Polygons(sheet + np.array([0.1 * k, 0, 0]), np.array([[0, 1, 2]]), color=np.eye(3)[k % 3], opacity=opacity,
+                      shading="unlit") for k, opacity in enumerate(opacities)]
     still = streaks(6, length=0.0)
     still.head[2] = still.tail[2] = 0.0
     hold(scene, still, camera=FLAT)
