@@ -99,7 +99,7 @@ class Effect:
         if not frames:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
-        warming = warm.start() if rendered else None
+        warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
         writer = Writer(self.plan, threads, limits.memory if limits else None)
         with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None

@@ -19,21 +19,21 @@ ENOUGH = 4096
 """Particles that make the renderer sort by itself."""
 
 
-def _mark() -> Path:
+def _mark(polygons: bool) -> Path:
     processor = [os.environ.get(name, "").encode() for name in ("NUMBA_CPU_NAME", "NUMBA_CPU_FEATURES")]
     digest = digest_of([engine_digest("math", "lanes", "store", "render").encode(), *processor])
-    return cache_folder() / f"renderer-{digest}.ready"
+    return cache_folder() / f"renderer{'-polygons' * polygons}-{digest}.ready"
 
 
-def start() -> subprocess.Popen[bytes] | None:
+def start(polygons: bool) -> subprocess.Popen[bytes] | None:
     """Begin to compile the renderer, unless that was done before or there is no second process to be had."""
-    if _mark().exists() or not sys.executable:
+    if _mark(polygons).exists() or not sys.executable:
         return None
     for listener in listeners:
         listener("the renderer")
     try:
         return subprocess.Popen(
-            [sys.executable, "-m", "graphfx.cook.warm"],
+            [sys.executable, "-m", "graphfx.cook.warm", *["polygons"] * polygons],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
@@ -42,19 +42,22 @@ def start() -> subprocess.Popen[bytes] | None:
         return None
 
 
-def draw_small() -> None:
+def draw_small(polygons: bool) -> None:
     """Draw a small picture with everything in it that is compiled, and leave the mark."""
+    from graphfx.geometry import box
     from graphfx.render.camera import Camera
+    from graphfx.render.polygons import Polygons
     from graphfx.render.renderer import render
     from graphfx.render.streaks import Streaks
     from graphfx.render.ways import Ways, chords_of
 
     head = np.random.default_rng(0).uniform(-1, 1, (3, ENOUGH)).astype(np.float32)
-    camera = Camera()
-    render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1)
+    camera, cube = Camera(), box((1, 1, 1))
+    drawn = [Polygons(cube.vertices, cube.triangles)] if polygons else []
+    render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1, polygons=drawn)
     chords_of(Ways(np.zeros((1, 1)), np.zeros((3, 1, 1))), np.zeros(1), np.zeros(1), 1.0)
-    _mark().touch()
+    _mark(polygons).touch()
 
 
 if __name__ == "__main__":
-    draw_small()
+    draw_small("polygons" in sys.argv)

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.lanes.inner import inner
+from graphfx.render.apart import apart
 
 MOST_TEXELS = 1 << 26
 """Texels of the largest texture: a gigabyte."""
@@ -108,7 +109,7 @@ def level_of(levels, first, count, slope):
     return min(0.5 * math.log2(squared), count - 1.0)
 
 
-@inner
+@apart
 def sample(texels, levels, first, count, u, v, slope):
     """Return the four components of a texture at (u, v), between the two levels that fit the slope."""
     level = level_of(levels, first, count, slope)

@@ -124,10 +124,9 @@ def _corners(source, t, view, cut):
     if high < view.near or low > view.far:
         return 0
     count = 3
-    if low < view.near:
-        count = _cut_at(cut.corners, count, view.near, 1.0, cut.spare)
-    if high > view.far:
-        count = _cut_at(cut.corners, count, view.far, -1.0, cut.spare)
+    for plane, sign in ((view.near, 1.0), (view.far, -1.0)):
+        if (low < plane if sign > 0.0 else high > plane):
+            count = _cut_at(cut.corners, count, plane, sign, cut.spare)
     for i in range(count):
         x, y, w = cut.corners[i, 0], cut.corners[i, 1], cut.corners[i, 2]
         inverse = 1.0 / w if view.perspective else 1.0
