@@ -54,7 +54,7 @@ def draw_small(polygons: bool) -> None:
     head = np.random.default_rng(0).uniform(-1, 1, (3, ENOUGH)).astype(np.float32)
     camera, cube = Camera(), box((1, 1, 1))
     drawn = [Polygons(cube.vertices, cube.triangles)] if polygons else []
-    render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1, polygons=drawn)
+    render([Streaks(head=head, tail=head + np.float32(0.1))], camera, camera, 64, 64, 1, memory=1e9, polygons=drawn)
     chords_of(Ways(np.zeros((1, 1)), np.zeros((3, 1, 1))), np.zeros(1), np.zeros(1), 1.0)
     _mark(polygons).touch()
 
