@@ -69,8 +69,8 @@ class Writer:
 
     def displayed(self, image: ImagePlan, film: Film, frame: int, bits: int = 8) -> np.ndarray:
         """Return the picture of a frame as a display is given it, in numbers of 8 or 16 bits."""
-        light, background = self._exposed(image, film, frame), self._background(image, frame)
-        return displayed(light, background, _display(image), bits, self.threads)
+        scale = 2.0 ** self._exposure(image, frame)
+        return displayed(film.pixels, self._background(image, frame), _display(image), bits, self.threads, scale)
 
     def add(self, movie: Movie, film: Film, frame: int) -> None:
         """Add the picture of a frame to a movie."""

@@ -28,14 +28,17 @@ Background = tuple[float, float, float] | np.ndarray | None
 DISPLAYS = ("srgb", "filmic", "raw")
 STEPS = 65536
 """Entries of the table for sRGB: fine enough that a byte is the nearest one to 0.03 of a level."""
-BAND = 64
+BAND = 32
 """Rows that are worked on at a time."""
 MIDDLE_GREY = 0.18
 
 
 def over(film: np.ndarray, background: tuple[float, float, float] | np.ndarray) -> np.ndarray:
     """Return the film (height, width, 4) over a linear colour or picture, as (height, width, 3)."""
-    return film[..., :3] + (1.0 - film[..., 3:]) * np.asarray(background, film.dtype)
+    through, behind, picture = 1.0 - film[..., 3], np.asarray(background, film.dtype), film[..., :3].copy(order="K")
+    for plane in range(3):
+        picture[..., plane] += through * behind[..., plane]
+    return picture
 
 
 def srgb(linear: np.ndarray) -> np.ndarray:
@@ -84,35 +87,42 @@ def _srgb_bytes() -> np.ndarray:
     return (srgb(np.arange(STEPS) / (STEPS - 1)) * 255.0 + 0.5).astype(np.uint8)
 
 
-def _in_bytes(picture: np.ndarray, display: str, result: np.ndarray) -> None:
+def _in_bytes(value: np.ndarray, display: str) -> np.ndarray:
+    """Return one colour, or alpha as `raw`, in 8 bits."""
     if display == "raw":
-        result[...] = picture * 255.0 + 0.5
-        return
-    _srgb_bytes().take((picture[..., :3] * (STEPS - 1) + 0.5).astype(np.uint16), out=result[..., :3], mode="clip")
-    result[..., 3:] = picture[..., 3:] * 255.0 + 0.5
+        return (value * 255.0 + 0.5).astype(np.uint8)
+    return _srgb_bytes()[(value * (STEPS - 1) + 0.5).astype(np.uint16)]
 
 
-def _in_words(picture: np.ndarray, display: str, result: np.ndarray) -> None:
-    exact = picture.astype(np.float64)
-    if display != "raw":
-        exact[..., :3] = srgb(exact[..., :3])
-    result[...] = exact * 65535.0 + 0.5
+def _in_words(value: np.ndarray, display: str) -> np.ndarray:
+    """Return one colour, or alpha as `raw`, in 16 bits."""
+    exact = value.astype(np.float64)
+    return ((exact if display == "raw" else srgb(exact)) * 65535.0 + 0.5).astype(np.uint16)
+
+
+def _by_planes(rows: np.ndarray) -> np.ndarray:
+    """Return a copy (height, width, 4) that lies in memory colour by colour, over which NumPy goes in long strides."""
+    return np.moveaxis(np.ascontiguousarray(np.moveaxis(rows, -1, 0)), 0, -1)
 
 
 def displayed(
-    film: np.ndarray, background: Background = None, display: str = "srgb", bits: int = 8, threads: int = 1
+    film: np.ndarray, background: Background = None, display: str = "srgb", bits: int = 8, threads: int = 1, scale: float = 1.0
 ) -> np.ndarray:
     """Return a linear premultiplied film as numbers of 8 or 16 bits: RGB over a background, else RGBA.
 
-    Each is the nearest to what it stands for; nothing is dithered.
+    Each is the nearest to what it stands for; nothing is dithered. The film's light is multiplied by `scale` before.
     """
     height, width = film.shape[:2]
     result = np.empty((height, width, 4 if background is None else 3), np.uint8 if bits == 8 else np.uint16)
-    write = _in_bytes if bits == 8 else _in_words
+    rounded = _in_bytes if bits == 8 else _in_words
 
     def work(_: int, start: int, stop: int) -> None:
-        behind = background[start:stop] if isinstance(background, np.ndarray) else background
-        write(shown(film[start:stop], behind, display), display, result[start:stop])
+        behind = _by_planes(background[start:stop]) if isinstance(background, np.ndarray) else background
+        light = _by_planes(film[start:stop])
+        light[..., :3] *= np.float32(scale)
+        picture = shown(light, behind, display)
+        for plane in range(result.shape[2]):
+            result[start:stop, :, plane] = rounded(picture[..., plane], display if plane < 3 else "raw")
 
     parallel_ranges(work, [(top, min(top + BAND, height)) for top in range(0, height, BAND)], threads)
     return result

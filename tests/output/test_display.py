@@ -128,3 +128,12 @@ def test_transparent_pictures_agree_with_opaque_ones(display):
     """Where alpha is 1, they show the same colour."""
     film = greys(np.linspace(0, 20, 50)).astype(np.float32)
     np.testing.assert_allclose(shown(film, None, display)[..., :3], shown(film, BLACK, display), rtol=1e-6)
+
+
+@pytest.mark.parametrize("background", [None, (0.1, 0.2, 0.3)])
+def test_scale_is_of_the_films_light(background):
+    """It multiplies the particles' light, and neither their alpha nor the background; the film is left as it is."""
+    film = np.random.default_rng(4).random((5, 6, 4), np.float32)
+    before, brighter = film.copy(), film * np.array([2, 2, 2, 1], np.float32)
+    np.testing.assert_array_equal(displayed(film, background, scale=2.0), displayed(brighter, background))
+    np.testing.assert_array_equal(film, before)
