@@ -131,17 +131,21 @@ def _read(columns, c, i):
 def _transformed(view, row, columns, first, moment, i):
     """Return one coordinate of the point in columns first ... first + 2, on the screen times its depth, seen at a moment."""
     x, y, z = _read(columns, first, i), _read(columns, first + 1, i), _read(columns, first + 2, i)
-    head, tail = view.head, view.tail
-    late = head[row, 0] * x + head[row, 1] * y + head[row, 2] * z + head[row, 3]
-    early = tail[row, 0] * x + tail[row, 1] * y + tail[row, 2] * z + tail[row, 3]
+    late = early = 0.0
+    if moment != 1.0:
+        late = view.head[row, 0] * x + view.head[row, 1] * y + view.head[row, 2] * z + view.head[row, 3]
+    if moment != 0.0:
+        early = view.tail[row, 0] * x + view.tail[row, 1] * y + view.tail[row, 2] * z + view.tail[row, 3]
     return (1.0 - moment) * late + moment * early
 
 
 @inner
 def _within(start, stop, from_, way, low, high):
     """Return the part of start ... stop in which from_ + s way lies between low and high; it is empty where stop < start."""
+    if low <= min(from_, from_ + way) and max(from_, from_ + way) <= high:
+        return start, stop
     if way == 0.0:
-        return (start, stop) if low <= from_ <= high else (1.0, 0.0)
+        return 1.0, 0.0
     one, other = (low - from_) / way, (high - from_) / way
     return max(start, min(one, other)), min(stop, max(one, other))
 
@@ -159,9 +163,9 @@ def _ends(columns, i, view):
     way_x, way_y = way_x - x, way_y - y
     x0, y0, x1, y1 = x + first * way_x, y + first * way_y, x + last * way_x, y + last * way_y
     if view.perspective:
-        near = min(max(depth0 + first * (depth1 - depth0), view.near), view.far)
-        far = min(max(depth0 + last * (depth1 - depth0), view.near), view.far)
-        x0, y0, x1, y1 = x0 / near, y0 / near, x1 / far, y1 / far
+        near = 1.0 / min(max(depth0 + first * (depth1 - depth0), view.near), view.far)
+        far = 1.0 / min(max(depth0 + last * (depth1 - depth0), view.near), view.far)
+        x0, y0, x1, y1 = x0 * near, y0 * near, x1 * far, y1 * far
     dx, dy = x1 - x0, y1 - y0
     length = math.sqrt(dx * dx + dy * dy)
     along_x = dx / length if length > 1e-6 else 1.0
