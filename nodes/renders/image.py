@@ -14,7 +14,7 @@ The end of `file` says the format. A PNG has the background in it, and shows lig
 what is beyond 1, `filmic` rolls it off towards white at 10 (Narkowicz's fit of the ACES curve; middle grey
 stays), `raw` is the light itself, clipped. An EXR (extra `exr`; deep ones without) holds light as it is, multiplied by
 alpha, which it keeps unless a background is stated. A background picture fills the frame, its proportions kept, and
-is cut where it is longer.
+is cut where it is longer. Where a `movie` takes the pictures, they are files of their own only if `file` is stated.
 
 `channels` of an EXR are `depth` (Z, m along the camera's axis, of the nearest of what is seen; 1e30 where nothing is), and
 of the particle that is seen most in a pixel: `velocity` (.X .Y, pixels a frame on the screen, Y upwards), `world_velocity`

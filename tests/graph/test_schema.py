@@ -87,3 +87,18 @@ def test_shipped_graphs_validate() -> None:
     validator = Draft202012Validator(schema(Library([bundled_root()])))
     for path in sorted((bundled_root() / "graphs").rglob("*.json")):
         assert [error.message for error in validator.iter_errors(json.loads(path.read_text()))] == []
+
+
+@pytest.mark.parametrize(("node", "valid"), [
+    ({"type": "preview", "from": "fall", "camera": "view"}, True),
+    ({"type": "preview", "from": [{"stream": "fall", "blend": "add"}], "camera": "view", "size": [320, 180], "shutter": 2}, True),
+    ({"type": "preview", "from": "fall"}, False), ({"type": "preview", "camera": "view", "radius": 1}, False),
+    ({"type": "movie", "image": "frames", "file": "a.webp", "quality": 50}, True), ({"type": "movie"}, False),
+    ({"type": "movie", "image": "frames", "quality": 101}, False), ({"type": "movie", "image": "frames", "from": "fall"}, False),
+])
+def test_previews_and_movies(node: dict[str, Any], valid: bool) -> None:
+    """The nodes that draw quickly and that make movies are checked as they declare themselves."""
+    nodes = {"sky": {"type": "emit"}, "fall": {"type": "stack", "from": "sky", "ops": []}, "view": {"type": "camera"},
+             "frames": {"type": "image", "from": "fall", "camera": "view"}, "new": node}
+    validator = Draft202012Validator(schema(Library([bundled_root()])))
+    assert validator.is_valid({"graphfx": 1, "nodes": nodes}) == valid
