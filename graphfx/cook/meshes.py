@@ -19,6 +19,7 @@ from graphfx.program import Call, Function
 
 STANDING = tuple(parameter.name for parameter in TRANSFORM)
 """Parameters that say where a mesh stands; the others make it."""
+Standing = tuple[tuple[float, ...], ...]
 KEPT = 4
 """Times at which the tables of a moving mesh are kept."""
 
@@ -59,7 +60,7 @@ class Meshes:
     def at(self, path: str, time: float, frame: int) -> MeshTables:
         """Return the tables of a mesh as it stands at a time [s]."""
         node = self.flat.nodes[path]
-        standing = self._standing(path, time, frame)
+        standing = self.standing(path, time, frame)
         kept = self._tables.setdefault(path, {})
         key = (standing, path in self._searched)
         if key not in kept:
@@ -68,15 +69,16 @@ class Meshes:
             kept[key] = MeshTables(self._located(node).moved(*transform(*standing)), path in self._searched)
         return kept[key]
 
-    def mesh(self, path: str, time: float, frame: int) -> Mesh:
-        """Return a mesh as it stands at a time [s]."""
-        return self._located(self.flat.nodes[path]).moved(*transform(*self._standing(path, time, frame)))
+    def mesh(self, path: str, standing: Standing) -> Mesh:
+        """Return a mesh as it stands so."""
+        return self._located(self.flat.nodes[path]).moved(*transform(*standing))
 
     def check(self, path: str, check: Callable[[Mesh], None]) -> None:
         """Make a mesh and look at it; what is wrong is told at its node."""
         self._located(self.flat.nodes[path], check)
 
-    def _standing(self, path: str, time: float, frame: int) -> tuple[tuple[float, ...], ...]:
+    def standing(self, path: str, time: float, frame: int) -> Standing:
+        """Return how a mesh stands at a time [s]."""
         node = self.flat.nodes[path]
         return tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
 

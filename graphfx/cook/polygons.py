@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from graphfx.cook.meshes import Meshes
+import numpy as np
+
+from graphfx.cook.meshes import Meshes, Standing
 from graphfx.cook.textures import check_texture, load_texture
 from graphfx.errors import GraphError, GraphfxError, LimitError, Problem
 from graphfx.geometry.mesh import Mesh
@@ -23,6 +25,7 @@ class PolygonMaker:
     def __init__(self, meshes: Meshes):
         """Read nothing yet."""
         self.meshes = meshes
+        self._kept: dict[str, tuple[Standing, tuple[Mesh, np.ndarray]]] = {}
         self._textures: dict[tuple[str, bool], Texture] = {}
 
     def prepare(self, images: Iterable[ImagePlan]) -> None:
@@ -48,13 +51,22 @@ class PolygonMaker:
     def polygons(self, node: FlatNode, time: float, frame: int) -> Polygons:
         """Return a node's polygons as they are at a time [s]."""
         given = {name: plain_value(value, time, frame) for name, value in node.arguments.items()}
-        self._mesh(node)
-        mesh = self.meshes.mesh(node.references["geometry"], time, frame)
+        mesh, normals = self._moved(node, time, frame)
         return Polygons(
-            mesh.vertices, mesh.triangles, mesh.vertex_normals() if given["shading"] == "smooth" else None, mesh.coordinates,
+            mesh.vertices, mesh.triangles, normals if given["shading"] == "smooth" else None, mesh.coordinates,
             given["color"], float(given["opacity"]), str(given["shading"]), self._texture(node, "color_map"),
             self._texture(node, "opacity_map"), bool(given["double_sided"]),
         )
+
+    def _moved(self, node: FlatNode, time: float, frame: int) -> tuple[Mesh, np.ndarray]:
+        """Return a node's mesh as it stands, and the normals of its vertices; both are kept while it stands so."""
+        path = node.references["geometry"]
+        standing = self.meshes.standing(path, time, frame)
+        if path not in self._kept or self._kept[path][0] != standing:
+            self._mesh(node)
+            mesh = self.meshes.mesh(path, standing)
+            self._kept[path] = standing, (mesh, mesh.vertex_normals())
+        return self._kept[path][1]
 
     def _mesh(self, node: FlatNode) -> None:
         """Make the mesh of a node; raise GraphError for one that cannot be drawn so."""

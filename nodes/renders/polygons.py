@@ -4,7 +4,8 @@
 
 An image draws them where its `from` names this node. They are sorted with the particles in every pixel, any number of
 transparent layers; what has an opacity of exactly 1 hides all behind it and costs the least. Colour and opacity may
-change with time, and the mesh stands where its transform puts it as the shutter closes: polygons have no motion blur.
+change with time, and the mesh stands where its transform puts it as the shutter closes: polygons have no motion blur, and
+are sharp wherever the camera's focus is.
 The alpha of a colour map multiplies the opacity. Maps repeat; they lie on a mesh as its coordinates say, which all shapes
 have and files may have. [Sims 1990, 4]
 """

@@ -122,13 +122,17 @@ def pieces_of(polygons, camera, width, height):
     return found, dropped
 
 
+def solved(piece, x, y, camera, width, height):
+    """Return how much of each corner of the whole triangle makes the ray through (x, y), at depth 1 in perspective."""
+    x, y = x - width / 2, y - height / 2
+    rows = piece.whole.T if camera.perspective else np.vstack([piece.whole[:, :2].T, np.ones(3)])
+    return np.linalg.solve(rows, np.array([x, y, 1.0]))
+
+
 def weights_at(piece, x, y, camera, width, height):
     """Return the weights of the whole triangle's corners where the ray through (x, y) meets it."""
-    x, y = x - width / 2, y - height / 2
-    if camera.perspective:
-        found = np.linalg.solve(piece.whole.T, np.array([x, y, 1.0]))
-        return found / found.sum()
-    return np.linalg.solve(np.vstack([piece.whole[:, :2].T, np.ones(3)]), np.array([x, y, 1.0]))
+    found = solved(piece, x, y, camera, width, height)
+    return found / found.sum()
 
 
 def texel(level, u, v):

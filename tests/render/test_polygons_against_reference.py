@@ -8,7 +8,8 @@ import pytest
 from graphfx.render import Lighting, Polygons
 from graphfx.render.camera import Camera
 
-from .meshes import CAMERA, FLAT, film, hold, picture, triangles
+from .meshes import CAMERA, FLAT, SIZE, film, hold, picture, triangles
+from .polygon_reference import pieces_of, solved
 from .scenes import comets, streaks
 
 CAMERAS = pytest.mark.parametrize("camera", [CAMERA, FLAT], ids=["perspective", "orthographic"])
@@ -79,6 +80,19 @@ def test_degenerate_and_broken_triangles():
     scene.vertices[10, 1] = np.nan
     scene.vertices[14, 2] = np.inf
     assert hold([scene]).dropped == 2
+
+
+@CAMERAS
+def test_keys_are_depths(camera):
+    """A fragment's key is that of the point where the ray through the mean of its samples meets the triangle, to rounding."""
+    errors = []
+    for piece in pieces_of(triangles(15, 200, size=2.0), camera, *SIZE)[0]:
+        x, y = np.clip(piece.corners.mean(axis=0), 0, SIZE)
+        found = solved(piece, x, y, camera, *SIZE)
+        exact = -found.sum() if camera.perspective else found @ piece.whole[:, 2]
+        if np.abs(exact - np.clip(exact, piece.keys.min(), piece.keys.max())) == 0:
+            errors.append(abs(np.float32(piece.key(x, y)) - exact) / abs(exact))
+    assert len(errors) > 50 and max(errors) < 1e-7
 
 
 def test_the_light_of_the_camera():
