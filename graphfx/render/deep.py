@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.lanes import any_lane, compiled, load, mask_bits, mask_from_bits, splat, store
-from graphfx.lanes.bits import count_bits, prefetch
+from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
 from graphfx.render.cover import hides
 from graphfx.render.layer import GROUP_HEIGHT, GROUPS, alpha_of, colored, fragments, groups_touched, localize
-from graphfx.render.order import AHEAD
+from graphfx.render.order import AHEAD, fetch
 from graphfx.render.pending import EMPTY, LANES, LIGHT, SLOT, add_slot, clear_light, store_slot
 from graphfx.render.segments import KEY0, KEY1
 from graphfx.render.tiles import lanes_inside, tile_corner, write_pixels
@@ -202,7 +202,7 @@ def _fill(segments, tiles, number, place, buffer, cover):
     inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
     most, total = _fullest(buffer), 0
     while place < stop and most < capacity:
-        prefetch(segments.values, tiles.members[min(place + AHEAD, stop - 1)] * 16)
+        fetch(segments, tiles.members[min(place + AHEAD, stop - 1)])
         q = tiles.members[place]
         place += 1
         local = localize(segments, q, left + 0.5, top + 0.5)

@@ -15,7 +15,7 @@ from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
 from graphfx.store.threads import parallel_ranges, ranges
 
-AHEAD = 12
+AHEAD = 6
 """Segments whose memory is fetched ahead."""
 
 
@@ -55,12 +55,20 @@ def merge_sort(words, spare, count):
         width *= 2
 
 
+@inner
+def fetch(segments, q):
+    """Fetch what a tile needs of segment q into the cache, without waiting for it."""
+    prefetch(segments.values, q * 16)
+    prefetch(segments.kind, q)
+    prefetch(segments.pace, q)
+
+
 @compiled
 def _pack(source: Any, order: Any, start: int, stop: int, target: Any) -> None:
     """Copy the segments order[start : stop] to rows start ... stop."""
     for i in range(start, stop):
         row = order[i]
-        prefetch(source.values, order[min(i + AHEAD, stop - 1)] * 16)
+        fetch(source, order[min(i + AHEAD, stop - 1)])
         for c in range(8):
             target.places[i, c] = source.places[row, c]
         target.pace[i] = source.pace[row]

@@ -22,6 +22,10 @@ SHARP0, SHARP1, CONFUSION0, CONFUSION1 = range(4)
 """Places in the row of a segment that is out of focus: its radii in focus, and how far it is out at its ends, pixels."""
 
 
+LINE = 64
+"""Bytes of a line of the cache, and of a row of segments."""
+
+
 class Segments(NamedTuple):
     """Segments as columns: 64 bytes a row, the same memory as float64 and as float32, and what not all need.
 
@@ -64,10 +68,17 @@ def segment_bytes(extras: Extras) -> int:
 
 def empty_segments(count: int, extras: Extras) -> Segments:
     """Return room for `count` segments; what not all need, only where any needs it."""
-    places = np.empty((count, 8), np.float64)
+    places = _rows_of_lines(count)
     return Segments(
         places, places.view(np.float32), np.empty((count * extras.varies, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
         np.empty(count * extras.sampled, np.int64), np.empty((count * extras.blurred, 4), np.float32),
         np.empty((count * extras.joined, 4), np.float32), np.empty(count * extras.curved, np.int64),
     )
+
+
+def _rows_of_lines(count: int) -> np.ndarray:
+    """Return room for rows of 64 bytes, each of them a line of the cache."""
+    room = np.empty((count + 1) * LINE, np.uint8)
+    first = -room.ctypes.data % LINE
+    return room[first : first + count * LINE].view(np.float64).reshape(count, LINE // 8)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.lanes import compiled, load, mask_bits
-from graphfx.lanes.bits import count_bits, prefetch
+from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
 from graphfx.render.cover import begin_pixels, hides, show_rest
@@ -26,7 +26,7 @@ from graphfx.render.layer import (
     groups_touched,
     localize,
 )
-from graphfx.render.order import AHEAD
+from graphfx.render.order import AHEAD, fetch
 from graphfx.render.pending import (
     CAPACITY,
     DRIFT,
@@ -180,8 +180,7 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
             _begin_tile(tiles, k, scratch, cover)
         last_place = tiles.starts[k + 1] - 1
         for place in range(tiles.starts[k], last_place + 1):
-            ahead = tiles.members[min(place + AHEAD, last_place)]
-            prefetch(segments.values, ahead * 16)
+            fetch(segments, tiles.members[min(place + AHEAD, last_place)])
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
