@@ -130,6 +130,9 @@ class GraphMaker:
                 "source": emitter,
                 "motion": {"type": "stack", "from": "source", "ops": [self.operator(k) for k in range(choose((1, 2, 3, 5)))]},
                 "view": {"type": "camera"},
-                "frames": {"type": "image", "from": "motion", "camera": "view", "size": [64, 36], "shutter": choose((0, 0.5, 1))},
+                "frames": {
+                    "type": "image", "from": "motion", "camera": "view", "size": [64, 36],
+                    "shutter": choose((0, 0.5, 1, 1.7)), "phase": choose((0, 0, 0.4)),
+                },
             },
         }

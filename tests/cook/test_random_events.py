@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from graphfx.cook.effect import Effect
-from graphfx.errors import GraphfxError
+from graphfx.cook.paths import lives_of
+from graphfx.cook.pictures import window_of
+from graphfx.cook.streaks import streaks_of
+from graphfx.errors import GraphfxError, LimitError
 from graphfx.graph.check import check
 from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
@@ -44,6 +48,29 @@ def test_machine_gives_the_bits_of_plain_python(seed: int) -> None:
     reference = made.simulate(LAST, reference=True)
     for path, columns in reference.items():
         assert {name: different(machine[path][name], columns[name]) for name in columns} == dict.fromkeys(columns, 0)
+
+
+@pytest.mark.parametrize("seed", range(8, 24))
+def test_pieces_of_every_way_take_all_of_its_time(seed: int) -> None:
+    """Whatever happens while the shutter is open, the pieces of a particle's way take the time for which it is seen, no more."""
+    made = effect(seed)
+    if made is None:
+        pytest.skip("this graph is refused")
+    simulation, image = made.simulation(), made.plan.images[0]
+    try:
+        for frame in simulation.frames(LAST):
+            window = window_of(image, simulation, frame)
+            for drawn in image.streams:
+                particles = simulation.particles[drawn.path]
+                for each in (particles, particles.past) if particles.past is not None else (particles,):
+                    lives = lives_of(each, window)
+                    share = np.ones(each.store.count) if lives is None else np.maximum(lives.share, 0.0)
+                    taken = np.zeros(each.store.count)
+                    for shown in streaks_of(each, None, drawn.looks, window, True):
+                        np.add.at(taken, shown.rows, np.broadcast_to(shown.streaks.share * shown.streaks.part, len(shown.rows)))
+                    np.testing.assert_allclose(taken, share, rtol=0, atol=1e-5)
+    except LimitError:
+        pytest.skip("this graph passes a limit of its own")
 
 
 def test_random_graphs_plan_or_are_told_what_is_wrong() -> None:
