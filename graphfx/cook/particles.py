@@ -156,7 +156,6 @@ class Particles:
         if self.past is not None:
             recent = times > self.since
             self._lay_aside(rows[recent], times[recent])
-        self.bends = self.bends.chosen(~flagged(rows, self.store.count)[self.bends.rows])
 
     def _lay_aside(self, rows: np.ndarray, times: np.ndarray) -> None:
         """Put copies of rows whose lives ended at `times` [s] among those that are past."""

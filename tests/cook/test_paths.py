@@ -1,4 +1,4 @@
-"""The ways of particles while the shutter is open: bends, births and deaths, several frames, phases."""
+"""The ways of particles while the shutter is open: bends at hits, looks along them, whatever runs the programs."""
 
 from __future__ import annotations
 
@@ -14,46 +14,9 @@ from graphfx.render.camera import Camera
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
 
-from .effects import effect, graph, made
+from .effects import made
+from .exposures import FLOOR, LOOK, ONE, pieces, scene, ways
 from .test_reference import MOVING, SURFACES
-
-FLOOR = {"type": "bounce_plane", "resilience": 1}
-SIDE = {"type": "camera", "projection": "orthographic", "view_width": 8, "position": [0, 1, 10], "target": [0, 1, 0]}
-LOOK = {"position": [0, 1, 0], "velocity": [3, -4, 0], "radius": 0.1, "opacity": 0.5}
-ONE = {"count": 1, "set": LOOK}
-
-
-def scene(ops, emit, shutter=1.0, phase=0.0, look=None, camera=None, frames=9, fps=2, **time):
-    """Return the effect of a stack seen from the side, two frames a second."""
-    image = {
-        "from": {"stream": "act" if ops else "sky", **(look or {})}, "camera": "side", "size": [64, 48],
-        "shutter": shutter, "phase": phase,
-    }
-    time = {"fps": fps, "frames": [1, frames], "precision": 64, **time}
-    return effect(graph(ops, {"rate": 0, **emit}, time, image, {"side": {**SIDE, **(camera or {})}}))
-
-
-def pieces(found, frame, **how) -> list[Streaks]:
-    """Return the streaks of a frame's picture."""
-    simulation = found.simulation(**how)
-    for _ in simulation.frames(frame):
-        pass
-    window, image = window_of(found.plan.images[0], simulation, frame), found.plan.images[0]
-    both = [simulation.particles["sky"]] + [past for past in [simulation.particles["sky"].past] if past is not None]
-    made = [shown.streaks for each in both for shown in streaks_of(each, None, image.streams[0].looks, window, False)]
-    return [streaks for streaks in made if streaks.count]
-
-
-def ways(found, frame) -> list[tuple[Any, ...]]:
-    """Return (tail, head, share of the shutter) of every streak of a frame, the earliest last, rounded."""
-    rows = []
-    for streaks in pieces(found, frame):
-        columns = [np.broadcast_to(column, streaks.count) for column in streaks.columns(0, streaks.count)]
-        for i in range(streaks.count):
-            numbers = [float(column[i]) for column in columns]
-            ends = [tuple(round(number, 4) for number in numbers[first : first + 3]) for first in (3, 0)]
-            rows.append((*ends, round(numbers[16] * numbers[17], 4)))
-    return rows
 
 
 @pytest.mark.parametrize("streak", ["exposed", "solid"])
@@ -142,77 +105,6 @@ def test_total_light_of_a_bouncing_particle_is_that_of_a_still_one(falloff):
         emit = {"count": 1, "set": LOOK | {"velocity": velocity, "radius": 0.25}}
         lights.append(scene([op], emit, look=look).film(2).pixels[..., 0].sum(dtype=float))
     assert lights == pytest.approx([lights[1]] * 3, rel=0.02)
-
-
-@pytest.mark.parametrize("shutter, phase", [(1.5, 0), (2.0, 0), (3.7, 0), (0.5, 0.25), (0.5, 1.0), (1.2, 0.7), (0.0, 0.6)])
-@pytest.mark.parametrize("substeps", [1, 3])
-@pytest.mark.parametrize("preroll", [0, 0.7])
-def test_uniform_motion_is_the_known_streak(shutter, phase, substeps, preroll):
-    """From phase + shutter frames ago to phase frames ago; what was before the beginning or the birth is not."""
-    found = scene([], {"rate": 2, "set": LOOK}, shutter, phase, frames=7, preroll=preroll, substeps=substeps)
-    births = np.arange(0, 4 + preroll, 0.5) - preroll
-    for frame in (1, 2, 3, 7):
-        now = (frame - 1) / 2
-        closing, opening = (max(now - back / 2, -preroll) for back in (phase, phase + shutter))
-        wanted = []
-        for birth in births[births <= closing + 1e-9]:
-            first, last = max(opening, birth), closing
-            share = (last - first) / (closing - opening) if closing > opening else 1.0
-            ends = [(3 * (time - birth), 1 - 4 * (time - birth), 0) for time in (first, last)]
-            if share > 1e-9:
-                wanted.append([*ends[0], *ends[1], share])
-        told = [[*tail, *head, share] for tail, head, share in ways(found, frame)]
-        np.testing.assert_allclose(sorted(told), sorted(wanted), rtol=0, atol=2e-4)
-
-
-def test_shutter_of_several_frames_bends_in_each():
-    """Under gravity the way goes through the places of the frames before, and through the hits between them."""
-    gravity, emit = {"type": "gravity", "acceleration": [0, -8, 0]}, {"count": 1, "set": LOOK | {"velocity": [1, 0, 0]}}
-    told = ways(scene([gravity], emit, 2.5), 5)
-    assert [(each[0][0], each[2]) for each in told] == [(1.5, 0.4), (1.0, 0.4), (0.75, 0.2)]
-    told = ways(scene([gravity, FLOOR], emit | {"set": LOOK | {"velocity": [1, 0, 0], "position": [0, 2.25, 0]}}, 3), 4)
-    assert [each[1][:2] for each in told] == [(1.5, 2.25), (1.0, 1.25), (0.75, 0), (0.5, 1.25)]
-
-
-def test_straight_ways_of_many_frames_are_one_streak():
-    """Even motion over four frames is drawn once, not in five pieces."""
-    assert len(ways(scene([], ONE, 3.5), 8)) == 1
-
-
-def test_those_who_died_frames_ago_are_still_exposed():
-    """With a shutter of two frames a particle that died 1.5 frames ago is seen for the half frame before, and then gone."""
-    emit = {"count": 1, "life": 1.25, "set": LOOK}
-    told = [ways(scene([], emit, 2), frame) for frame in (3, 4, 5, 6)]
-    assert [round(sum(each[2] for each in frame), 4) for frame in told] == [1, 0.75, 0.25, 0]
-    assert told[2] == [((3, -3, 0), (3.75, -4, 0), 0.25)]
-
-
-def test_reborn_particle_does_not_streak_across_the_scene():
-    """One that dies and lives again elsewhere is seen in both places, each for its time, and nowhere between."""
-    ops = [{"type": "recycle"}]
-    emit = {"count": 1, "life": 0.75, "set": LOOK}
-    for shutter in (1.0, 2.0):
-        told = ways(scene(ops, emit, shutter), 3)
-        assert sum(each[2] for each in told) == pytest.approx(1)
-        assert ((0, 1, 0), (0.75, 0, 0), 0.5 / shutter) in told
-        assert max(abs(head[0] - tail[0]) for tail, head, _ in told) < 3
-
-
-def test_recycled_twice_within_the_shutter():
-    """Each of several lives in one frame has its own streak."""
-    told = ways(scene([{"type": "recycle"}], {"count": 1, "life": 0.2, "set": LOOK}), 2)
-    assert sorted(each[2] for each in told) == pytest.approx([0.2, 0.4, 0.4], abs=1e-3)
-    assert {each[0] for each in told} == {(0, 1, 0)}
-
-
-def test_newborn_and_dying_on_a_path_set_each_frame():
-    """Where a path is followed, a streak begins where the particle was born on it and ends where it died."""
-    ops = [{"type": "set", "set": {"position": {"expr": "vec(time, time * time, 0)"}}}]
-    emit = {"count": 1, "life": 0.5, "during": [0.25, 1], "set": {"position": [9, 9, 9], "radius": 0.1}}
-    assert ways(scene(ops, emit), 2) == [((0.25, 0.0625, 0), (0.5, 0.25, 0), 0.5)]
-    assert ways(scene(ops, emit), 3) == [((0.5, 0.25, 0), (0.75, 0.5625, 0), 0.5)]
-    told = ways(scene(ops, emit, 1.5), 3)
-    assert told[-1][0] == (0.25, 0.0625, 0) and told[0][1] == (0.75, 0.5625, 0)
 
 
 def test_colours_run_along_all_pieces():
