@@ -77,6 +77,13 @@ def test_bends_stay_with_their_particles_as_others_die():
     assert simulation.particles["sky"].past.store.count <= 2 and len(simulation.particles["sky"].bends.rows) <= 3
 
 
+def test_hits_of_long_ago_are_forgotten():
+    """However long a particle bounces, the hits that are kept are those that a picture may show."""
+    simulation = scene([FLOOR, {"type": "gravity"}], {"count": 1, "set": LOOK}, 1, frames=30).simulation()
+    kept = [len(simulation.particles["sky"].bends.rows) for _ in simulation.frames(30)]
+    assert max(kept) <= 2 and sum(kept) > 10
+
+
 def test_trails_leave_no_bends():
     """Copies of particles that are carried along to leave a trail do not disturb the ways of those born after."""
     dust = {"dust": {"type": "spawn", "from": "act", "rate": 40, "life": 0.1}}

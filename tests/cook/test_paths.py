@@ -77,9 +77,9 @@ def test_pieces_look_as_their_own_particle():
 
 def test_bends_that_do_not_show_cost_nothing():
     """A hit that a straight way passes within half a radius is left out; a large ball that jumps a little is one streak."""
-    emit = {"count": 1, "set": LOOK | {"radius": 2.5}}
-    assert len(ways(scene([FLOOR], emit), 2)) == 1
-    assert len(ways(scene([FLOOR], {"count": 1, "set": LOOK | {"radius": 1.5}}), 2)) == 2
+    half_as_far = {"position": [0, 0.5, 0], "velocity": [1.5, -2, 0]}
+    told = [ways(scene([FLOOR], {"count": 1, "set": LOOK | half_as_far | {"radius": radius}}), 2) for radius in (1.1, 0.9)]
+    assert [len(each) for each in told] == [1, 2]
 
 
 @pytest.mark.parametrize("response, count", [("stick", 2), ("die", 1), ("slide", 2)])
