@@ -2,7 +2,8 @@
 
 A graph says what it shows in its `doc`, the title before the first full stop; each of its images is one picture, under the
 first line of its own `doc`. What a page needs besides, it says in the key `x-page`: its place (`order`), how many
-times larger an image is shown (`zoom`, by its id), and whether the light in them is measured from frame to frame (`light`).
+times larger an image is shown (`zoom`, by its id), whether it is shown as a movie (`moves`) and whether the light in its
+images is measured from frame to frame (`light`).
 """
 
 from __future__ import annotations
@@ -30,8 +31,8 @@ from graphfx.output.atomic import make_folder, whole_file
 from graphfx.output.png import write_png
 from graphfx.output.sheet import Card, Picture, page, sheet
 
-QUALITY = 90.0
-"""Of the page's movies."""
+QUALITY, LOSSLESS = 90.0, 100.0
+"""Of the page's movies, and of those whose pixels are seen."""
 LEAST_TOLD = 0.01
 """Percents below which light does not vary enough to say by how much."""
 
@@ -46,6 +47,7 @@ class Demo:
     labels: dict[str, str]
     order: float = 0.0
     zoom: dict[str, int] = field(default_factory=dict)
+    moves: bool = False
     light: bool = False
 
     @property
@@ -104,18 +106,19 @@ class Drawn:
 
 
 def draw_demo(demo: Demo, library: Library, folder: Path | None, threads: int, share: float = 1.0) -> Drawn:
-    """Draw a demo: the last frame of all its images, and where the light is measured every frame, as a movie in a folder."""
+    """Draw a demo: the last frame of all its images; where the light is measured, or a movie is made in a folder, every frame."""
     effect = Effect(at_size(flatten(demo.file, library), share))
     writer, simulation, last = Writer(effect.plan, threads), effect.simulation(threads), effect.frames[-1]
     drawn = Drawn({}, {image.node.path: [] for image in effect.plan.images})
     with ExitStack() as files:
         movies = {}
-        if folder is not None and demo.light:
+        if folder is not None and demo.moves:
             for image in effect.plan.images:
                 file = folder / f"{picture_name(demo, image.node.path)}.webp"
-                movies[image.node.path] = files.enter_context(animated_webp(file, effect.flat.time.fps, QUALITY))
+                quality = LOSSLESS if image.node.path in demo.zoom else QUALITY
+                movies[image.node.path] = files.enter_context(animated_webp(file, effect.flat.time.fps, quality))
         for frame in simulation.frames(last):
-            for image in effect.plan.images if demo.light or frame == last else ():
+            for image in effect.plan.images if demo.light or movies or frame == last else ():
                 film = writer.draw(None, image, simulation, frame)
                 drawn.light[image.node.path].append(float(film.pixels[..., :3].sum(dtype=float)))
                 drawn.stills[image.node.path] = writer.displayed(image, film, frame)
@@ -150,7 +153,7 @@ def _card(demo: Demo, drawn: Drawn, folder: Path) -> Card:
         write_png(folder / f"{name}.png", still)
         zoom = demo.zoom.get(path, 1)
         large = still.repeat(zoom, axis=0).repeat(zoom, axis=1)
-        pictures.append(Picture(large, demo.labels.get(path, ""), f"{name}.png", f"{name}.webp" if demo.light else ""))
+        pictures.append(Picture(large, demo.labels.get(path, ""), f"{name}.png", f"{name}.webp" if demo.moves else ""))
     facts = []
     if demo.light:
         frames = len(next(iter(drawn.light.values())))

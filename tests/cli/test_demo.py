@@ -25,7 +25,7 @@ def library(folder: Path) -> str:
     nodes: dict[str, Any] = FOUNTAIN["nodes"]
     second = nodes["frames"] | {"file": "second.####.png", "doc": "Seen <twice>."}
     two = {**FOUNTAIN, "doc": "Two. Of one fountain.", "x-page": {"order": 2}, "nodes": nodes | {"second": second}}
-    moving = {**FOUNTAIN, "doc": "Moving. With light.", "x-page": {"order": 1, "light": True, "zoom": {"frames": 3}}}
+    moving = {**FOUNTAIN, "doc": "Moving. With light.", "x-page": {"order": 1, "light": True, "moves": True, "zoom": {"frames": 3}}}
     (graphs / "demos" / "small" / "a_two.json").write_text(json.dumps(two))
     (graphs / "demos" / "small" / "moving.json").write_text(json.dumps(moving))
     return "mine"
