@@ -51,7 +51,7 @@ def draw(
     width, height = image.size
     return render(
         streams, *cameras, width, height, threads, sampler=sampler, polygons=polygons, lighting=lighting,
-        memory=working_memory(memory, width * height),
+        memory=working_memory(memory, width * height), cutoff=float(image.value("cutoff")),
     )
 
 

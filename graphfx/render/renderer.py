@@ -40,7 +40,7 @@ Sampler = Callable[[Samples], Any]
 def render(
     streams: Sequence[Streaks], head_camera: Camera, tail_camera: Camera | None, width: int, height: int,
     threads: int = 1, listener: Listener = lambda step: None, sampler: Sampler | None = None, memory: float = np.inf,
-    polygons: Sequence[Polygons] = (), lighting: Lighting = NO_LIGHTS,
+    polygons: Sequence[Polygons] = (), lighting: Lighting = NO_LIGHTS, cutoff: float = 0.0,
 ) -> Film:
     """Return the film of all streams and polygons together.
 
@@ -48,7 +48,7 @@ def render(
     planes are the head's, which sees the polygons too. `memory` is the number of bytes that may be used beside streams,
     polygons and film; what is too much for it is made patch by patch. Any number of threads and any memory give the same
     bytes. `listener` is called with the name of each step as it begins, `sampler` with the samples of each band of rows, from
-    the top.
+    the top. Where particles let less than `cutoff` of the light through, what is behind may be left out: at 0, nothing is.
     """
     tail_camera = tail_camera or head_camera
     if tail_camera.projection != head_camera.projection:
@@ -60,7 +60,7 @@ def render(
     if polygons:
         listener("polygons")
         surfaces = Surfaces(polygons, lighting, head_camera, width, height, threads)
-    _Rendering(scene, surfaces, film, listener, sampler, max(memory, LEAST_MEMORY)).run()
+    _Rendering(scene, surfaces, film, listener, sampler, max(memory, LEAST_MEMORY), cutoff).run()
     film.dropped += surfaces.dropped if surfaces is not None else 0
     return film
 
@@ -75,6 +75,7 @@ class _Rendering:
     listener: Listener
     sampler: Sampler | None
     memory: float
+    cutoff: float
 
     def run(self) -> None:
         """Render all at once if the memory allows it, or patch by patch."""
@@ -125,7 +126,8 @@ class _Rendering:
         scene = self.scene
         perspective, most = scene.view.perspective, memory / MEMBER_BYTES
         limits = None if layers is None else layers.limits.max(axis=1)
-        return bin_segments(segments, patch, scene.width, scene.height, perspective, scene.threads, most, limits)
+        tiles = bin_segments(segments, patch, scene.width, scene.height, perspective, scene.threads, most, limits)
+        return tiles and tiles._replace(cutoff=self.cutoff)
 
     def _composite(self, segments: Segments, tiles: Tiles, layers: Layers | None) -> None:
         self.listener("tiles")

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphfx.lanes import compiled, load, mask_bits
+from graphfx.lanes import compiled, highest, load, mask_bits
 from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
@@ -50,6 +50,7 @@ class Tiles(NamedTuple):
     """The tiles of a patch, row by row: the segments of tile k are members[starts[k] : starts[k + 1]], nearest first.
 
     `column` and `row` are those of the patch's first tile in the picture of width x height pixels, `across` its tiles in a row.
+    Where all pixels of a group let less than `cutoff` through, what comes further back is left out; at 0 nothing is.
     """
 
     starts: np.ndarray
@@ -60,6 +61,7 @@ class Tiles(NamedTuple):
     width: int
     height: int
     perspective: bool
+    cutoff: float = 0.0
 
 
 class Scratch(NamedTuple):
@@ -71,11 +73,12 @@ class Scratch(NamedTuple):
     counts: np.ndarray
     hits: np.ndarray
     inside: np.ndarray
+    closed: np.ndarray
 
 
 def new_scratch() -> Scratch:
     """Return scratch for one thread."""
-    numbers = np.zeros((4, GROUPS), np.int64)
+    numbers = np.zeros((5, GROUPS), np.int64)
     return Scratch(np.zeros(GROUPS * LIST, np.float32), np.zeros(GROUPS * LIGHT, np.float32), *numbers)
 
 
@@ -96,13 +99,13 @@ def lanes_inside(left, top, width, height):
 
 
 @inner
-def _draw(segments, q, local, group, square, scratch, cover):
+def _draw(segments, tiles, q, local, group, scratch, cover):
     """Draw one segment in one group, and count its fragments in the picture."""
-    key, shape, t, hit = fragments(local, group, square)
+    key, shape, t, hit = fragments(local, group, tiles.perspective)
     bits = mask_bits(hit)
     if bits == 0:
         return
-    opacity, red, green, blue = colored(segments, q, local, key, t, square)
+    opacity, red, green, blue = colored(segments, q, local, key, t, tiles.perspective)
     base = group * LIST
     first, count = release(
         scratch.light, group * LIGHT, scratch.slots, base, scratch.firsts[group], scratch.counts[group], local.nearest,
@@ -119,6 +122,8 @@ def _draw(segments, q, local, group, square, scratch, cover):
             scratch.slots, base, first, count, where(hit, key, EMPTY), where(hit, alpha_of(opacity, shape), 0.0), red, green, blue
         )
     scratch.hits[group] += count_bits(bits & scratch.inside[group])
+    if tiles.cutoff > 0.0 and highest(load(scratch.light, group * LIGHT)) < tiles.cutoff:
+        scratch.closed[group] = 1
 
 
 @inner
@@ -159,11 +164,20 @@ def _begin_tile(tiles, k, scratch, cover):
     """Empty the lists of a tile's groups."""
     left, top = tile_corner(tiles, k)
     for group in range(GROUPS):
-        scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = 0
+        scratch.firsts[group] = scratch.counts[group] = scratch.hits[group] = scratch.closed[group] = 0
         scratch.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
         clear_light(scratch.light, group * LIGHT)
     if cover is not None:
         begin_pixels(cover, k, 0, TILE_WIDTH * TILE_HEIGHT)
+
+
+@inner
+def _all_closed(scratch):
+    """Return whether nothing further back is drawn in any group."""
+    for group in range(GROUPS):
+        if not scratch.closed[group]:
+            return False
+    return True
 
 
 @compiled
@@ -180,6 +194,8 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
             _begin_tile(tiles, k, scratch, cover)
         last_place = tiles.starts[k + 1] - 1
         for place in range(tiles.starts[k], last_place + 1):
+            if tiles.cutoff > 0.0 and _all_closed(scratch):
+                break
             fetch(segments, tiles.members[min(place + AHEAD, last_place)])
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
@@ -187,8 +203,8 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
             for group in range(first, last + 1):
                 if cover is not None and hides(cover, k, group, local.nearest):
                     continue
-                if scratch.counts[group] != OVERFLOWED:
-                    _draw(segments, q, local, group, tiles.perspective, scratch, cover)
+                if scratch.counts[group] != OVERFLOWED and not scratch.closed[group]:
+                    _draw(segments, tiles, q, local, group, scratch, cover)
         if finish:
             total += _finish_tile(tiles, k, scratch, overflowed, pixels, cover)
     return total

@@ -37,6 +37,7 @@ def image(
     transparent: bool = param(False, doc="Leave the background out and keep the picture's alpha."),
     lights: list = param((), type="nodes", choices=("light",), doc="Lights on polygons; none: one from over the shoulder."),
     ambient: Vec3 = param((0.15, 0.15, 0.15), type="color", min=0, doc="Light on polygons from all sides."),
+    cutoff: float = param(0.0, min=0, max=0.5, doc="Leave out what is behind particles that let less light through; 0 is exact."),
     exposure: float = param(0.0, unit="stops", min=-30, max=30, doc="The picture's light is scaled by 2 to this power."),
     display: str = param("srgb", choices=("srgb", "filmic", "raw"), doc="How light becomes the numbers of a PNG."),
     file: str = param("{graph}.####.png", doc="Name of the files, .png or .exr; #### is the frame and {graph} the graph's name."),
