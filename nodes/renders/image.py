@@ -18,8 +18,9 @@ is cut where it is longer. Where a `movie` takes the pictures, they are files of
 
 `channels` of an EXR are `depth` (Z, m along the camera's axis, of the nearest of what is seen; 1e30 where nothing is), and
 of the particle that is seen most in a pixel: `velocity` (.X .Y, pixels a frame on the screen, Y upwards), `world_velocity`
-(.X .Y .Z, m/s), `id` and `stream` (whole numbers; the streams of `from`, from 1 on). A `deep` EXR has instead every
-fragment with its depth, id and such channels; flattened, it is the picture without background.
+(.X .Y .Z, m/s), `id` and `stream` (whole numbers; the streams of `from`, from 1 on); all 0 where polygons are seen, or nothing.
+Velocities are means over the shutter, or over half a frame where it stays shut. A `deep` EXR has instead every fragment
+with its depth, id and such channels; flattened, it is the picture without background.
 """
 
 from graphfx.math import Vec3

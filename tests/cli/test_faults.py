@@ -16,7 +16,6 @@ from graphfx.cook import limits
 from graphfx.cook.limits import in_bytes
 from graphfx.output import atomic
 
-OpenEXR = pytest.importorskip("OpenEXR")
 FREE = "free some space, choose another folder with --out, write fewer with --frames, or allow it with --limit-disk"
 
 
@@ -25,7 +24,7 @@ def whole(folder: Path) -> list[str]:
     files = sorted(file for file in folder.rglob("*") if file.is_file())
     for file in files:
         if file.suffix == ".exr":
-            with OpenEXR.File(str(file)) as picture:
+            with pytest.importorskip("OpenEXR").File(str(file)) as picture:
                 assert picture.channels()
             continue
         with Image.open(file) as picture:
