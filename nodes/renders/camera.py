@@ -7,8 +7,9 @@ With an `f_stop` a perspective camera has a depth of field: a point at depth d i
 
     c = lens^2 |d - focus_distance| / (f_stop d (focus_distance - lens))
 
-which widens a particle and makes it fainter, its total of light kept. Every number may change with time, by keys or an
-expression; while the shutter is open, the camera moves as on a straight line from where it was at its opening.
+which widens a particle and makes it fainter, its total of light kept: a blurred opaque disc is a larger, fainter one. Of
+polygons nothing is out of focus. Every number may change with time, by keys or an expression; while the shutter is
+open, what stands still goes straight on the screen from where the camera saw it at the opening.
 """
 
 from graphfx.math import Vec3

@@ -6,9 +6,9 @@ An entry of `from` is the id of a `polygons` node or of one that makes a stream,
 
 The shutter is open from phase + shutter to phase frames before the frame's time: with a shutter of 1.2 streaks overlap from
 frame to frame, and with a phase of 0.25 a shutter of 0.5 is open around half a frame before. Ways bend at hits, begin at
-births and end at deaths; of more than eight hits of a particle in a frame the first ones and the last are exact. Colours
-and radii are those of the frame's time, unless the tail has its own. Nothing is seen of what comes after the frame: a
-shutter centred on it is that of a later frame with a phase.
+births and end at deaths; of more than eight hits of a particle in a frame the first ones and the last are exact. (The
+method `sims` bounces at the ends of steps, where ways do not bend.) Colours and radii are those of the frame's time, unless
+the tail has its own. Nothing is seen of what comes after the frame, so a phase is never negative.
 
 The end of `file` says the format. A PNG has the background in it, and shows light as `display` says: `srgb` clips
 what is beyond 1, `filmic` rolls it off towards white at 10 (Narkowicz's fit of the ACES curve; middle grey

@@ -54,6 +54,15 @@ def test_straight_streak_in_pieces_is_the_whole(camera, falloff, streak, moments
     np.testing.assert_allclose(got, film(whole, camera=camera).pixels, rtol=0, atol=1e-5)
 
 
+@pytest.mark.parametrize("streak", ["exposed", "solid"])
+def test_falloff_of_ones_own_is_cut_as_others_are(streak):
+    """Also a ring, whose opacity rises towards its edge; out of focus to 3e-3, as pieces do not know the whole's length there."""
+    whole = _long(42, (0.35, 0.45), falloff=((0, 0.2), (0.7, 0.4), (0.9, 1), (1, 0)), streak=streak)
+    for camera, tolerance in ((FLAT, 1e-5), (TURNED, 3e-3)):
+        got = film(*cut(whole, 0.3), camera=camera).pixels
+        np.testing.assert_allclose(got, film(whole, camera=camera).pixels, rtol=0, atol=tolerance)
+
+
 @pytest.mark.parametrize("falloff, streak", LOOKS)
 def test_thin_straight_streak_in_pieces_is_nearly_the_whole(falloff, streak):
     """Under two pixels, where short pieces are evened, to 2 % of the opacity."""
