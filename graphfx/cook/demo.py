@@ -8,6 +8,7 @@ images is measured from frame to frame (`light`).
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -19,7 +20,7 @@ import numpy as np
 
 from graphfx.cook.effect import Effect
 from graphfx.cook.writing import Writer
-from graphfx.errors import GraphError
+from graphfx.errors import GraphError, Location, Problem, suggestion
 from graphfx.graph.document import load_document
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
@@ -33,6 +34,8 @@ from graphfx.output.sheet import Card, Picture, page, sheet
 
 QUALITY, LOSSLESS = 90.0, 100.0
 """Of the page's movies, and of those whose pixels are seen."""
+ON_PAGE: dict[str, Any] = {"order": 1.5, "zoom": {"frames": 4}, "moves": True, "light": True}
+"""What a graph may say of its place on a page, with an example of each."""
 LEAST_TOLD = 0.01
 """Percents below which light does not vary enough to say by how much."""
 
@@ -78,8 +81,20 @@ def _read(file: Path) -> Demo:
     data = _data(file)
     title, _, caption = str(data.get("doc", file.stem)).partition(". ")
     labels = {name: str(node.get("doc", "")) for name, node in data.get("nodes", {}).items()}
-    given = data.get("x-page", {})
-    return Demo(file, title.rstrip("."), caption, labels, **given)
+    return Demo(file, title.rstrip("."), caption, labels, **_on_page(file, data.get("x-page", {})))
+
+
+def _on_page(file: Path, given: Any) -> dict[str, Any]:
+    """Return what a graph says of its place on a page; raise GraphError where that makes no sense."""
+    fault = "" if isinstance(given, dict) else 'it should be an object, such as {"order": 1}; it is ' + json.dumps(given)
+    for name, value in given.items() if isinstance(given, dict) else ():
+        if name not in ON_PAGE:
+            fault = f"a page knows no '{name}'.{suggestion(name, ON_PAGE)}"
+        elif type(value) not in {type(ON_PAGE[name]), int if name == "order" else None}:
+            fault = f"{name} should be like {json.dumps(ON_PAGE[name])}; it is {json.dumps(value)}"
+    if fault:
+        raise GraphError(Problem(fault, Location(str(file)), "x-page", (f"it knows {', '.join(ON_PAGE)}",)))
+    return dict(given)
 
 
 def at_size(flat: FlatGraph, share: float) -> FlatGraph:

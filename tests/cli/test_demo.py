@@ -25,7 +25,8 @@ def library(folder: Path) -> str:
     nodes: dict[str, Any] = FOUNTAIN["nodes"]
     second = nodes["frames"] | {"file": "second.####.png", "doc": "Seen <twice>."}
     two = {**FOUNTAIN, "doc": "Two. Of one fountain.", "x-page": {"order": 2}, "nodes": nodes | {"second": second}}
-    moving = {**FOUNTAIN, "doc": "Moving. With light.", "x-page": {"order": 1, "light": True, "moves": True, "zoom": {"frames": 3}}}
+    page = {"order": 1, "light": True, "moves": True, "zoom": {"frames": 3}}
+    moving = {**FOUNTAIN, "doc": "Moving. With light.", "x-page": page}
     (graphs / "demos" / "small" / "a_two.json").write_text(json.dumps(two))
     (graphs / "demos" / "small" / "moving.json").write_text(json.dumps(moving))
     return "mine"
@@ -93,3 +94,18 @@ def test_messages(invoke, folder: Path, arguments: tuple[str, ...], code: int, m
     """What cannot be is told before any work."""
     assert invoke("demo", *arguments) == (code, "", message)
     assert [file.name for file in folder.iterdir()] == ["fountain.json"]
+
+
+@pytest.mark.parametrize(("page", "message"), [
+    ({"ordr": 1}, "x-page: a page knows no 'ordr'. Did you mean 'order'?\n  it knows order, zoom, moves, light"),
+    ({"zoom": 3}, 'x-page: zoom should be like {"frames": 4}; it is 3\n  it knows order, zoom, moves, light'),
+    ({"light": "yes"}, "x-page: light should be like true; it is \"yes\"\n  it knows order, zoom, moves, light"),
+    (7, 'x-page: it should be an object, such as {"order": 1}; it is 7\n  it knows order, zoom, moves, light'),
+])
+def test_wrong_place_on_a_page(invoke, folder: Path, library: str, page: Any, message: str) -> None:
+    """What a graph says of its page is checked, and told at its file."""
+    file = folder / "mine" / "graphs" / "demos" / "small" / "moving.json"
+    file.write_text(json.dumps({**FOUNTAIN, "x-page": page}))
+    code, out, err = invoke("demo", "small", "--library", library)
+    assert (code, out) == (1, "")
+    assert err.partition("moving.json: ")[2] == message + "\n"
