@@ -176,7 +176,7 @@ def _write_corner(source, t, corner, facing, made, at, k):
             corner, source.colors[a & m, axis], source.colors[b & m, axis], source.colors[c & m, axis]))
     m = source.opacity_mask
     opacity = _mixed(corner, source.opacities[a & m], source.opacities[b & m], source.opacities[c & m])
-    made.looks[at, LOOK * k + 6] = np.float32(min(max(opacity, 0.0), 1.0))
+    made.looks[at, LOOK * k + 6] = np.float32(opacity)
     if source.coordinates.shape[0]:
         for axis in range(2):
             made.coordinates[at, 2 * k + axis] = _mixed(
@@ -235,7 +235,7 @@ def _source(polygons: Polygons, matrix: np.ndarray, number: int) -> _Source:
         else:
             normals = face_normals(vertices[triangles])
     colors = np.ascontiguousarray(polygons.color, np.float64).reshape(-1, 3)
-    opacities = np.ascontiguousarray(polygons.opacity, np.float64).reshape(-1)
+    opacities = np.ascontiguousarray(polygons.opacity, np.float64).reshape(-1).clip(0.0, 1.0)
     given = polygons.coordinates if polygons.color_map is not None or polygons.opacity_map is not None else None
     coordinates = np.zeros((0, 3, 2)) if given is None else np.ascontiguousarray(given, np.float64)
     return _Source(

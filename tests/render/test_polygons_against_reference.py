@@ -49,7 +49,7 @@ def test_polygons_among_particles(camera, opacity):
     hold(scene, streaks(1), comets(2, blend="add"), streaks(3, falloff="disc", streak="solid"), camera=camera)
 
 
-@pytest.mark.parametrize("opacity", [1.0, 0.5])
+@pytest.mark.parametrize("opacity", [1.0, 0.5, np.random.default_rng(9).uniform(-0.2, 1.4, 90)], ids=["1", "0.5", "vertices"])
 def test_triangles_through_the_near_and_far_plane(opacity):
     """A triangle is cut at the planes, with what it has there."""
     camera = Camera(position=(0, 0, 1.0), lens=30.0, near=0.25, far=2.0)
