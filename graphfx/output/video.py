@@ -17,7 +17,6 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.errors import OutputError, Problem
 from graphfx.output.animation import Add
 from graphfx.output.atomic import whole_path
 
@@ -82,7 +81,7 @@ def video(path: str | os.PathLike[str], fps: float, codec: Codec) -> Iterator[Ad
                 yield add
                 container.mux(stream.encode())
         except av.FFmpegError as error:
-            raise OutputError(Problem(f"cannot write {os.fspath(path)}: {error.strerror}")) from error
+            raise OSError(error.errno, error.strerror) from error
 
 
 def _frame(picture: np.ndarray, codec: Codec) -> Any:

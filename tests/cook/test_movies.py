@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import signal
@@ -93,6 +94,20 @@ def test_killed_cook_leaves_no_half_movie(tmp_path: Path):
     process.send_signal(signal.SIGKILL)
     process.communicate(timeout=60)
     assert [name for name in names(tmp_path) if not name.endswith(".part")] == ["long.json"]
+
+
+@pytest.mark.parametrize("suffix", sorted(movies.KINDS))
+def test_full_disk_leaves_no_movie(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, suffix: str):
+    """Where the disk has no room for a movie that is said, with its name, and no part of it is left."""
+    def full(handle: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OutputError) as caught:
+        made(nodes={"movie": {**WEBP["movie"], "file": f"m{suffix}"}}).cook(tmp_path / "out", frames=[1, 2], threads=1)
+    file, hint = tmp_path / "out" / f"m{suffix}", "free some space there, or write to another disk"
+    assert str(caught.value) == f"cannot write {file}: No space left on device; {hint}"
+    assert names(tmp_path / "out") == []
 
 
 FAULTS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
