@@ -30,11 +30,10 @@ F = np.float32
 
 
 class Looks(NamedTuple):
-    """What all triangles share: a row for each look, the light (see Lighting.rows) and all textures."""
+    """What all triangles share: a row for each look, the light (see Lighting.rows) and the levels of all textures."""
 
     rows: np.ndarray
     light: np.ndarray
-    texels: np.ndarray
     levels: np.ndarray
     perspective: bool
 
@@ -155,12 +154,12 @@ def _maps(looks, row, places, weights):
     slope = _mixed(places, 0, 2, wx), _mixed(places, 1, 2, wx), _mixed(places, 0, 2, wy), _mixed(places, 1, 2, wy)
     red, green, blue, opacity = 1.0, 1.0, 1.0, 1.0
     if row[COLOR_LEVELS]:
-        found = sample(looks.texels, looks.levels, row[COLOR_MAP], row[COLOR_LEVELS], u, v, slope)
+        found = sample(looks.levels, row[COLOR_MAP], row[COLOR_LEVELS], u, v, slope)
         opacity = found[3]
         inverse = 1.0 / opacity if opacity > 0.0 else 0.0
         red, green, blue = found[0] * inverse, found[1] * inverse, found[2] * inverse
     if row[OPACITY_LEVELS]:
-        opacity *= sample(looks.texels, looks.levels, row[OPACITY_MAP], row[OPACITY_LEVELS], u, v, slope)[3]
+        opacity *= sample(looks.levels, row[OPACITY_MAP], row[OPACITY_LEVELS], u, v, slope)[3]
     return red, green, blue, opacity
 
 

@@ -56,6 +56,8 @@ class Surfaces:
         self.triangles, self.dropped = project_polygons(given, camera, width, height, threads)
         self.bins = bin_triangles(self.triangles, width, height, threads)
         self.looks = _looks(given, lighting, camera)
+        self.given = list(given)
+        """Whose textures the looks name by address."""
 
     def layer_bytes(self, threads: int = 1) -> np.ndarray:
         """Return the bytes (rows, columns) that the layers of each tile take while they are made, at most."""
@@ -117,10 +119,10 @@ def _looks(given: Sequence[Polygons], lighting: Lighting, camera: Camera) -> Loo
     """Return what the triangles share; a texture that several use is there once."""
     maps = [texture for polygons in given for texture in (polygons.color_map, polygons.opacity_map) if texture is not None]
     textures = list({id(texture): texture for texture in maps}.values())
-    texels, levels, spans = tables(textures)
+    levels, spans = tables(textures)
     span = {id(texture): each for texture, each in zip(textures, spans, strict=True)}
     rows = [
         (*span.get(id(polygons.color_map), (0, 0)), *span.get(id(polygons.opacity_map), (0, 0)), polygons.shading != "unlit")
         for polygons in given
     ]
-    return Looks(np.array(rows, np.int64).reshape(-1, 5), lighting.rows(camera.axes()), texels, levels, camera.perspective)
+    return Looks(np.array(rows, np.int64).reshape(-1, 5), lighting.rows(camera.axes()), levels, camera.perspective)

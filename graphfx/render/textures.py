@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.render.apart import apart
 
@@ -61,16 +62,16 @@ class Texture:
                 self.levels[-1][..., 3] = 1.0
 
 
-def tables(textures: list[Texture]) -> tuple[np.ndarray, np.ndarray, list[tuple[int, int]]]:
-    """Return all texels (n, 4), the levels (m, 3) as (first texel, width, height), and each texture's first level and number."""
-    texels, rows, spans, offset = [np.zeros((1, 4), np.float32)], list[tuple[int, ...]](), list[tuple[int, int]](), 1
+def tables(textures: list[Texture]) -> tuple[np.ndarray, list[tuple[int, int]]]:
+    """Return all levels (m, 3) as (address, width, height), and each texture's first level and their number.
+
+    Who calls keeps the textures alive.
+    """
+    rows, spans = list[tuple[int, ...]](), list[tuple[int, int]]()
     for texture in textures:
         spans.append((len(rows), len(texture.levels)))
-        for level in texture.levels:
-            rows.append((offset, level.shape[1], level.shape[0]))
-            texels.append(level.reshape(-1, 4))
-            offset += level.shape[0] * level.shape[1]
-    return np.concatenate(texels), np.array(rows, np.int64).reshape(-1, 3), spans
+        rows += [(level.ctypes.data, level.shape[1], level.shape[0]) for level in texture.levels]
+    return np.array(rows, np.int64).reshape(-1, 3), spans
 
 
 @inner
@@ -83,18 +84,25 @@ def _neighbours(place, size):
 
 
 @inner
-def _bilinear(texels, levels, level, u, v):
-    """Return the four components of one level at (u, v)."""
-    offset, width, height = levels[level, 0], levels[level, 1], levels[level, 2]
+def _texel(address, texel, share, total):
+    """Return four components plus a share of those of a texel."""
+    at = 4 * texel
+    return (
+        total[0] + share * float_at(address, at), total[1] + share * float_at(address, at + 1),
+        total[2] + share * float_at(address, at + 2), total[3] + share * float_at(address, at + 3),
+    )
+
+
+@inner
+def _bilinear(levels, level, u, v, share, total):
+    """Return four components plus a share of those of one level at (u, v)."""
+    address, width, height = levels[level, 0], levels[level, 1], levels[level, 2]
     i0, i1, s = _neighbours(u, width)
     j0, j1, t = _neighbours(v, height)
-    a, b = texels[offset + j0 * width + i0], texels[offset + j0 * width + i1]
-    c, d = texels[offset + j1 * width + i0], texels[offset + j1 * width + i1]
-    p, q, r, w = (1.0 - s) * (1.0 - t), s * (1.0 - t), (1.0 - s) * t, s * t
-    return (
-        p * a[0] + q * b[0] + r * c[0] + w * d[0], p * a[1] + q * b[1] + r * c[1] + w * d[1],
-        p * a[2] + q * b[2] + r * c[2] + w * d[2], p * a[3] + q * b[3] + r * c[3] + w * d[3],
-    )
+    total = _texel(address, j0 * width + i0, share * (1.0 - s) * (1.0 - t), total)
+    total = _texel(address, j0 * width + i1, share * s * (1.0 - t), total)
+    total = _texel(address, j1 * width + i0, share * (1.0 - s) * t, total)
+    return _texel(address, j1 * width + i1, share * s * t, total)
 
 
 @inner
@@ -110,19 +118,13 @@ def level_of(levels, first, count, slope):
 
 
 @apart
-def sample(texels, levels, first, count, u, v, slope):
+def sample(levels, first, count, u, v, slope):
     """Return the four components of a texture at (u, v), between the two levels that fit the slope."""
     level = level_of(levels, first, count, slope)
     lower = min(int(level), count - 1)
     share = level - lower
-    near = _bilinear(texels, levels, first + lower, u, v)
-    if not share > 0.0:
-        return near
-    far = _bilinear(texels, levels, first + lower + 1, u, v)
-    return (
-        near[0] + share * (far[0] - near[0]), near[1] + share * (far[1] - near[1]),
-        near[2] + share * (far[2] - near[2]), near[3] + share * (far[3] - near[3]),
-    )
+    total = _bilinear(levels, first + lower, u, v, 1.0 - share, (0.0, 0.0, 0.0, 0.0))
+    return _bilinear(levels, first + lower + 1, u, v, share, total) if share > 0.0 else total
 
 
 def textured(texels: Any, color: bool = True) -> Texture:
