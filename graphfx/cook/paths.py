@@ -16,7 +16,7 @@ from graphfx.render.ways import Ways
 
 
 class Window(NamedTuple):
-    """The time for which a shutter is open [s], in the picture of a `frame` that shows `time`; nothing was before `start`."""
+    """The time for which a shutter is open [s], in the picture of the frame that shows `time`; nothing was before `start`."""
 
     opening: float
     closing: float
@@ -53,32 +53,32 @@ class Lives:
 
 def lives_of(particles: Particles, window: Window) -> Lives | None:
     """Return when particles are seen; None if all are, all the time."""
-    store = particles.store
-    born = np.full(store.count, -np.inf)
-    if particles.plan.exposure.deep:
-        born[:] = store.column("birth")[0]
-    elif not (len(particles.dying) or (particles.born_at > window.opening).any()):
+    deep = particles.plan.exposure.deep
+    if not (deep or len(particles.dying) or (particles.born_at > window.opening).any()):
         return None
-    born[particles.born] = particles.born_at
-    death = np.full(store.count, np.inf)
-    death[particles.dying] = particles.ended_at
-    begin, end = np.maximum(born, window.opening), np.minimum(death, window.closing)
+    born, died = _lifetimes(particles)
+    begin, end = np.maximum(born, window.opening), np.minimum(died, window.closing)
     if window.length > 0:
         return Lives(begin, end, (end - begin) / window.length)
-    return Lives(begin, end, ((born <= window.closing) & (death > window.closing)).astype(float))
+    return Lives(begin, end, ((born <= window.closing) & (died > window.closing)).astype(float))
+
+
+def _lifetimes(particles: Particles) -> tuple[np.ndarray, np.ndarray]:
+    """Return when particles were born and died [s], as far as pictures can see; -infinity and infinity beyond that."""
+    store = particles.store
+    born, died = np.full(store.count, -np.inf), np.full(store.count, np.inf)
+    if particles.plan.exposure.deep:
+        born[:] = store.column("birth")[0]
+    born[particles.born] = particles.born_at
+    died[particles.dying] = particles.ended_at
+    return born, died
 
 
 def ways_of(particles: Particles, rows: np.ndarray, window: Window) -> Ways:
     """Return the ways of rows through the instants that are kept."""
-    store, exposure = particles.store, particles.plan.exposure
-    last = exposure.instants[-1]
-    instants = [instant for instant in exposure.instants if window.uses(instant, instant is last)]
-    born, died = np.full(store.count, -np.inf), np.full(store.count, np.inf)
-    if exposure.deep:
-        born[:] = store.column("birth")[0]
-    born[particles.born] = particles.born_at
-    died[particles.dying] = particles.ended_at
-    born, died = born[rows], died[rows]
+    kept = particles.plan.exposure.instants
+    instants = [instant for instant in kept if window.uses(instant, instant is kept[-1])]
+    born, died = (times[rows] for times in _lifetimes(particles))
     times, places = [np.minimum(died, window.time)], [_places(particles, "position", rows)]
     for instant in instants:
         time = np.maximum(max(window.time - instant.back / window.fps, window.start), born)
