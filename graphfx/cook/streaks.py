@@ -76,12 +76,16 @@ class _Drawing:
         return made
 
     def _ways(self, rows: np.ndarray, with_hits: bool) -> tuple[np.ndarray, Chords, list[tuple[Streaks, np.ndarray]]]:
-        """Return which of rows have straight ways while they are seen, their chords, and the others in pieces."""
+        """Return which of rows have straight ways while they are seen, their chords, and the others in pieces.
+
+        One that cannot be drawn is left whole, to be dropped and counted once.
+        """
         ways = ways_of(self.particles, rows, self.window)
         if with_hits and len(rows):
             ways = with_bends(ways, self.particles.bends, rows)
         begin, end = self._begin(rows), self._end(rows)
         chords = chords_of(ways, begin, end, self._radius(rows), self.particles.store.threads)
+        chords.straight[~chords.straight] = ~self._are_finite(rows[~chords.straight])
         bent = ~chords.straight
         if not bent.any():
             return chords.straight, chords, []
@@ -123,6 +127,14 @@ class _Drawing:
         heads = {"radius": self._radius(rows), "color": self._column("color", rows), "opacity": self._column("opacity", rows)}
         tails = {name: self._column(f"tail.{name}", rows) for name in heads if f"tail.{name}" in self.particles.store.columns}
         return {f"head_{name}": value for name, value in heads.items()} | {f"tail_{name}": value for name, value in tails.items()}
+
+    def _are_finite(self, rows: np.ndarray) -> np.ndarray:
+        """Return which rows have looks that can be drawn."""
+        finite = np.ones(len(rows), bool)
+        for value in self._looks(rows).values():
+            for part in value if isinstance(value, tuple) else (value,):
+                finite &= np.isfinite(part)
+        return finite
 
     def _moments(self, head: Any, tail: Any, ends: tuple[str, str] = ("head", "tail")) -> dict[str, Any]:
         """Return when the ends of streaks are seen, if that matters."""

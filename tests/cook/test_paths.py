@@ -162,9 +162,11 @@ def test_threads_change_no_byte_of_a_film():
     assert len({found.film(6, threads=threads).pixels.tobytes() for threads in (1, 2, 5)}) == 1
 
 
-def test_not_finite_particles_are_dropped_once():
-    """A particle whose place is not a number is dropped and counted once, however many pieces its way would have."""
-    wrong = {"type": "set", "only": {"share": {"fraction": 0.5}}, "set": {"position": {"expr": "position / (time - time)"}}}
+@pytest.mark.parametrize("name", ["position", "radius", "color", "opacity", "tail.radius", "tail.color"])
+def test_not_finite_particles_are_dropped_once(name):
+    """A particle of which a number is none is dropped and counted once, however many pieces its way would have."""
+    value = {"expr": "vec(1, 1, 1) / (time - time)" if name in ("position", "color", "tail.color") else "sqrt(time - time - 1)"}
+    wrong = {"type": "set", "only": {"share": {"fraction": 0.5}}, "set": {name: value}}
     found = made(
         [{"type": "gravity"}, FLOOR, wrong], {"rate": 40, "set": LOOK}, {"fps": 4, "frames": [1, 4]}, {"shutter": 2.5}
     )
@@ -172,5 +174,5 @@ def test_not_finite_particles_are_dropped_once():
     for _ in simulation.frames(4):
         pass
     film = draw(found.plan.images[0], simulation, 4, 1)
-    broken = sum(~np.isfinite(simulation.particles["sky"].store.column("position")[0]))
+    broken = sum(~np.isfinite(simulation.particles["sky"].store.column(name)[0]))
     assert 0 < film.dropped == broken
