@@ -15,7 +15,8 @@ SHARE = 0.5
 def working_memory(allowed: int | None, pixels: int) -> float:
     """Return the bytes that making a picture of so many pixels may take, beside its film.
 
-    `allowed` is what the whole process may take; if it is not given, half of what is available. No byte of a picture depends on it.
+    `allowed` is what the whole process may take, or half of what is available if it is not given. No byte of a picture depends
+    on it.
     """
     film = 16 * pixels
     if allowed is not None:
