@@ -20,14 +20,11 @@ from graphfx.lanes import compiled, load, mask_bits, mask_from_bits, splat, stor
 from graphfx.lanes.bits import sum_lanes
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
+from graphfx.render.coverage import PIXELS, SAMPLES
 
 if TYPE_CHECKING:
     from graphfx.render.layers import Layers
 
-SAMPLES = 16
-PIXELS = 128
-"""Pixels of a tile."""
-ALL = 0xFFFF
 F = np.float32
 
 

@@ -18,6 +18,8 @@ from graphfx.lanes import load, mask_bits
 from graphfx.lanes.inner import inner
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 
+PIXELS = TILE_WIDTH * TILE_HEIGHT
+"""Pixels of a tile."""
 SAMPLES = 16
 SAMPLE_X = np.array([(i + 0.5) / SAMPLES for i in range(SAMPLES)])
 SAMPLE_Y = np.array([(int(f"{i:04b}"[::-1], 2) + 0.5) / SAMPLES for i in range(SAMPLES)])

@@ -13,12 +13,11 @@ import numpy as np
 
 from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
-from graphfx.render.coverage import ALL, SAMPLES
+from graphfx.render.coverage import ALL, PIXELS, SAMPLES
 from graphfx.render.layer import GROUPS, TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.order import merge_sort, ordered_bits
 from graphfx.render.pending import LANES
 from graphfx.render.resolve import (
-    PIXELS,
     clear_depths,
     enter_depths,
     pixels_spanned,

@@ -21,6 +21,7 @@ from graphfx.lanes.inner import inner
 from graphfx.math.primitives import maximum, minimum, where
 from graphfx.render.coverage import (
     ALL,
+    PIXELS,
     SAMPLE_X,
     SAMPLE_Y,
     SAMPLES,
@@ -31,7 +32,6 @@ from graphfx.render.coverage import (
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.shading import Plane, key_at, plane_of, twice_area
 
-PIXELS = TILE_WIDTH * TILE_HEIGHT
 F = np.float32
 
 

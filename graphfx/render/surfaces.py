@@ -7,11 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from graphfx.render.camera import Camera
+from graphfx.render.coverage import PIXELS
 from graphfx.render.layer import GROUPS, TILE_HEIGHT
 from graphfx.render.layers import Fragments, Layers, make_layers, most_fragments
 from graphfx.render.patches import Patch
 from graphfx.render.polygons import Lighting, Polygons
-from graphfx.render.resolve import PIXELS, new_room
+from graphfx.render.resolve import new_room
 from graphfx.render.shading import Looks
 from graphfx.render.textures import tables
 from graphfx.render.triangle_bins import TriangleBins, bin_triangles
