@@ -256,6 +256,13 @@ def alpha_of(opacity, shape):
 
 
 @inner
+def along(values, local, key, t, square):
+    """Return s, the share of the way from head to tail in space: t k1 / k(t) in perspective, t in orthographic."""
+    s = local.first + t * local.share
+    return minimum(s * values[KEY1] / key, 1.0) if square else s
+
+
+@inner
 def colored(segments, q, local, key, t, square):
     """Return (opacity, red, green, blue) where s = t k1 / k(t) in perspective, s = t in orthographic."""
     values, tails = segments.values, segments.tails
@@ -263,9 +270,7 @@ def colored(segments, q, local, key, t, square):
     opacity, red = none + values[q, OPACITY], none + values[q, RED]
     green, blue = none + values[q, GREEN], none + values[q, BLUE]
     if local.kind & VARYING:
-        s = local.first + t * local.share
-        if square:
-            s = minimum(s * values[q, KEY1] / key, 1.0)
+        s = along(values[q], local, key, t, square)
         opacity = opacity + s * (tails[q, 3] - values[q, OPACITY])
         red = red + s * (tails[q, 0] - values[q, RED])
         green = green + s * (tails[q, 1] - values[q, GREEN])

@@ -147,15 +147,21 @@ def _write_focus(sharp, confusion, segments, at):
 
 
 @inner
-def _write_look(columns, i, first, last, factor, look, segments, at):
+def _opacities(columns, i, first, last):
+    """Return the opacities at the ends of the part that is seen."""
+    head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
+    return mixed(head, tail, first), mixed(head, tail, last)
+
+
+@inner
+def _write_look(columns, i, first, last, opacities, factor, look, segments, at):
     """Write colour and opacity of both ends; return whether any opacity is left.
 
     The opacity of a small particle may pass 1, where its light lies between pixels; no fragment's does.
     """
     values, tails = segments.values, segments.tails
-    head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
-    opacity0 = np.float32(look.sign * min(mixed(head, tail, first) * factor, GREATEST_OPACITY))
-    opacity1 = np.float32(look.sign * min(mixed(head, tail, last) * factor, GREATEST_OPACITY))
+    opacity0 = np.float32(look.sign * min(opacities[0] * factor, GREATEST_OPACITY))
+    opacity1 = np.float32(look.sign * min(opacities[1] * factor, GREATEST_OPACITY))
     values[at, OPACITY] = opacity0
     varying = opacity0 != opacity1
     for c in range(3):
@@ -190,21 +196,22 @@ def _write_segment(columns, i, view, look, window, number, segments, at):
         _write_focus(sharp, confusion, segments, at)
     pace, portion = pace_of(segment, look, view.perspective), _unit(value_of(columns, 17, i)) * (last - first)
     joints = joints_of(np.int64(value_of(columns, 18, i)), segment, first, last)
-    total, factor = true_total(sharp, segment, look), 1.0
+    opacities = _opacities(columns, i, first, last)
+    total, factor = true_total(sharp, opacities, segment, look), 1.0
     if joints != 0 and portion > 0.0:
         kind |= joints
         write_joints(columns, i, view, segment, segments, at)
         pace = min(pace / portion, GREATEST_PACE)
-        total = joined_total(sharp, segment, look, joints, portion)
+        total = joined_total(sharp, opacities, segment, look, joints, portion)
     elif look.exposed:
         factor = portion
     _write_place(segment, pace, kind, look, segments, at)
     if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
         return False
-    factor *= evenness(segments, at, view.perspective, total)
+    factor *= evenness(segments, at, view.perspective, opacities, total)
     if look.exposed:
         factor *= _unit(value_of(columns, 16, i))
-    return _write_look(columns, i, first, last, factor, look, segments, at)
+    return _write_look(columns, i, first, last, opacities, factor, look, segments, at)
 
 
 @compiled

@@ -31,16 +31,22 @@ def pace_of(segment, look, perspective):
 
 
 @inner
-def true_total(sharp, segment, look):
-    """Return the total of opacity 1, of radii `sharp` in focus: of the capsule if solid, of the still particle if exposed."""
+def true_total(sharp, opacities, segment, look):
+    """Return the total, of radii `sharp` in focus and opacities at the ends.
+
+    Exposed: of the still particle, the mean over the way. Solid: of a half at each end, and of what lies between.
+    """
     _, _, dx, dy, _, _, _, _ = segment
-    r0, r1 = sharp
-    still = look.area * (r0 * r0 + r1 * r1) * 0.5
-    return still if look.exposed else still + look.width * math.sqrt(dx * dx + dy * dy) * (r0 + r1) * 0.5
+    (r0, r1), (o0, o1) = sharp, opacities
+    r, o = (r0 + r1) * 0.5, (o0 + o1) * 0.5
+    if look.exposed:
+        return look.area * (r0 * r0 * o0 + 4.0 * r * r * o + r1 * r1 * o1) / 6.0
+    between = look.width * math.sqrt(dx * dx + dy * dy) * (r0 * o0 + 4.0 * r * o + r1 * o1) / 6.0
+    return look.area * (r0 * r0 * o0 + r1 * r1 * o1) * 0.5 + between
 
 
 @inner
-def joined_total(sharp, segment, look, joints, portion):
+def joined_total(sharp, opacities, segment, look, joints, portion):
     """Return the same of a segment that goes on in others, and takes the given portion of the whole streak's time."""
     _, _, dx, dy, _, _, _, _ = segment
     ends = 1.0 - (0.5 if joints & JOINED_HEAD else 0.0) - (0.5 if joints & JOINED_TAIL else 0.0)
@@ -48,4 +54,4 @@ def joined_total(sharp, segment, look, joints, portion):
     length, drawn = math.sqrt(dx * dx + dy * dy), max(radius, 1.0)
     area, width = look.area * drawn * drawn, look.width * drawn * length
     true = look.area * radius * radius + (0.0 if look.exposed else look.width * radius * length / portion)
-    return (area * ends + width) * true / (area + width / portion)
+    return (area * ends + width) * true / (area + width / portion) * (opacities[0] + opacities[1]) * 0.5

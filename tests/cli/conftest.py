@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable
@@ -60,9 +62,11 @@ def invoke(folder: Path, capsys: pytest.CaptureFixture[str]) -> Invoke:
 
 @pytest.fixture
 def started(folder: Path) -> Callable[..., subprocess.Popen[str]]:
-    """Start the command in a process of its own."""
+    """Start the command in a process of its own, in which Ctrl-C does what it does at a terminal."""
 
     def start(*arguments: str, **options: Any) -> subprocess.Popen[str]:
+        if os.name != "nt":
+            options["preexec_fn"] = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
         return subprocess.Popen([sys.executable, "-m", "graphfx", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True, **options)
 

@@ -120,24 +120,27 @@ def value(column, i, components=0):
 
 def evened(segment):
     """Return the factor that keeps a small particle's sum over all pixel centres at its true total."""
-    fade = np.clip(2 - max(np.hypot(segment.radius, segment.confusion)), 0, 1) * np.clip(2 - segment.length / 8, 0, 1)
+    fade = np.clip(2 - max(np.hypot(segment.radius, segment.confusion)), 0, 1) * np.clip(2 - segment.length / 64, 0, 1)
     if fade == 0:
         return 1.0
     across, area = INTEGRALS[segment.falloff]
-    true = area * np.mean(np.square(segment.radius))
+    share = np.linspace(0, 1, 2001)
+    radius, opacity = (first + share * (last - first) for first, last in (segment.radius, segment.opacity))
+    true = area * np.trapezoid(radius**2 * opacity, share)
     if segment.solid:
-        true += across * np.mean(segment.radius) * segment.length
+        true = area * (radius**2 * opacity)[[0, -1]].mean() + across * segment.length * np.trapezoid(radius * opacity, share)
     if any(segment.joined):
         radius = np.mean(segment.radius)
         drawn, caps, length = max(radius, 1.0), 1 - sum(segment.joined) / 2, segment.length
         true = area * radius**2 + (across * radius * length / segment.portion if segment.solid else 0)
         true *= (area * drawn**2 * caps + across * drawn * length) / (
             area * drawn**2 + across * drawn * length / segment.portion
-        )
-    corner = np.floor(segment.head)
-    grid = np.arange(-24, 25) + 0.5
-    sampled = segment.at(*np.meshgrid(corner[0] + grid, corner[1] + grid))[0].sum()
-    return 1 + fade * (true / sampled - 1)
+        ) * np.mean(segment.opacity)
+    low, high = (np.floor(edge(segment.head, segment.head + segment.way)) for edge in (np.minimum, np.maximum))
+    x, y = np.meshgrid(*(np.arange(first - 5, last + 6) + 0.5 for first, last in zip(low, high, strict=True)))
+    shape, t, _ = segment.at(x, y)
+    sampled = (shape * segment.attributes(t)[0]).sum()
+    return 1 + fade * (true / sampled - 1) if sampled > 0 else 1.0
 
 
 def project(stream, i, head_camera, tail_camera, width, height):
@@ -181,6 +184,7 @@ def project(stream, i, head_camera, tail_camera, width, height):
             np.zeros(2) if points is None else seen_way(cameras, end, points[:, i], value(moment, i), width, height)
             for points, moment, end in far
         )
+    segment.opacity = (first[8], last[8])
     factor = evened(segment)
     if not segment.solid:
         factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)

@@ -65,11 +65,11 @@ def test_falloff_of_ones_own_is_cut_as_others_are(streak):
 
 @pytest.mark.parametrize("falloff, streak", LOOKS)
 def test_thin_straight_streak_in_pieces_is_nearly_the_whole(falloff, streak):
-    """Under two pixels, where short pieces are evened, to 2 % of the opacity."""
+    """Under two pixels, where pieces are evened each by itself, to 3 % of the opacity."""
     whole = _long(42, (0.02, 0.2), falloff=falloff, streak=streak, head_color=(1.0, 1.0, 1.0))
     whole.tail_color = None
     got, alone = (film(*each, camera=FLAT).pixels for each in (cut(whole, 0.4), [whole]))
-    assert np.abs(got - alone).max() < 0.02 * alone.max()
+    assert np.abs(got - alone).max() < 0.03 * alone.max()
 
 
 @pytest.mark.parametrize("streak", ["exposed", "solid"])
