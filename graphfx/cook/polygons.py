@@ -65,7 +65,7 @@ class PolygonMaker:
         if path not in self._kept or self._kept[path][0] != standing:
             self._mesh(node)
             mesh = self.meshes.mesh(path, standing)
-            self._kept[path] = standing, (mesh, mesh.vertex_normals())
+            self._kept[path] = standing, (mesh, mesh.shading_normals())
         return self._kept[path][1]
 
     def _mesh(self, node: FlatNode) -> None:

@@ -66,6 +66,12 @@ class Mesh:
                 total[:, axis] += np.bincount(self.triangles[:, k], faces[:, axis] * angle, len(total))
         return unit_rows(total)
 
+    def shading_normals(self) -> np.ndarray:
+        """Return the vertices' normals, all turned round if they point, taken together, to where the triangles look as clockwise."""
+        normals = self.vertex_normals()
+        together = (normals[self.triangles].sum(axis=1) * self.crosses).sum()
+        return -normals if together < 0.0 else normals
+
     def moved(self, matrix: np.ndarray, shift: np.ndarray) -> Mesh:
         """Return the mesh with all points p at matrix p + shift; what mirrors it keeps its outside out."""
         flips = np.linalg.det(matrix) < 0

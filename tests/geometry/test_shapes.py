@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -139,3 +141,12 @@ def test_unsound_meshes_are_refused(mesh: Mesh, message: str) -> None:
     with pytest.raises(GraphError) as caught:
         checked(mesh, "it")
     assert str(caught.value) == message
+
+
+def test_shading_normals_are_on_the_side_to_which_triangles_run():
+    """A file's normals that point inwards, or triangles that run the other way round, turn all of them; no normals do not."""
+    ball = sphere(2.0)
+    normals = ball.vertex_normals()
+    inwards, clockwise = replace(ball, normals=-normals), replace(ball, triangles=ball.triangles[:, ::-1], normals=normals)
+    assert np.array_equal(ball.shading_normals(), normals)
+    assert np.array_equal(inwards.shading_normals(), normals) and np.array_equal(clockwise.shading_normals(), -normals)
