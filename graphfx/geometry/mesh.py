@@ -67,7 +67,7 @@ class Mesh:
         return unit_rows(total)
 
     def shading_normals(self) -> np.ndarray:
-        """Return the vertices' normals, all turned round if they point, taken together, to where the triangles look as clockwise."""
+        """Return the vertices' normals, all turned round if they point, taken together, to the triangles' backs."""
         normals = self.vertex_normals()
         together = (normals[self.triangles].sum(axis=1) * self.crosses).sum()
         return -normals if together < 0.0 else normals

@@ -145,7 +145,7 @@ def test_unsound_meshes_are_refused(mesh: Mesh, message: str) -> None:
 
 def test_shading_normals_are_on_the_side_to_which_triangles_run():
     """A file's normals that point inwards, or triangles that run the other way round, turn all of them; no normals do not."""
-    ball = sphere(2.0)
+    ball = sphere(2.0, 2)
     normals = ball.vertex_normals()
     inwards, clockwise = replace(ball, normals=-normals), replace(ball, triangles=ball.triangles[:, ::-1], normals=normals)
     assert np.array_equal(ball.shading_normals(), normals)
