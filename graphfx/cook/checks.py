@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from graphfx.cook.cameras import check_cameras
+from graphfx.cook.cameras import check_views
 from graphfx.cook.files import check_files
 from graphfx.cook.limits import CookLimits, check_limits
 from graphfx.cook.meshes import Meshes
@@ -21,7 +21,7 @@ def problems_before(plan: Plan) -> list[Problem]:
     checks: list[Callable[[], object]] = [
         lambda: check_files(plan, Path(), range(time.first, min(time.first + 1, time.last) + 1)),
         lambda: check_limits(plan, CookLimits()),
-        lambda: check_cameras(plan),
+        lambda: check_views(plan),
         lambda: _check_meshes(plan),
         lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images),
         lambda: backdrops_of(plan),

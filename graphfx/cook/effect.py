@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook import warm
-from graphfx.cook.cameras import check_cameras
+from graphfx.cook.cameras import check_views
 from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
@@ -152,7 +152,7 @@ class Effect:
         """
         limits = limits or CookLimits()
         check_limits(self.plan, limits)
-        check_cameras(self.plan)
+        check_views(self.plan)
         executor: Executor = (
             ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
         )

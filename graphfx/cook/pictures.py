@@ -33,10 +33,10 @@ def draw(
     `sampling` is given all streaks and whose they are, and returns what takes their samples.
     """
     window = window_of(image, simulation, frame)
-    cameras = camera_at(image.camera, window.closing, frame), camera_at(image.camera, window.opening, frame)
+    cameras = camera_at(image.camera, window.closing, frame), camera_at(image.camera, window.opening, frame, window.closing)
     shown = [
         streaks
-        for number, drawn in enumerate(image.streams)
+        for number, drawn in enumerate(image.streams if _has_begun(image, simulation, frame) else ())
         for particles in _sources(simulation, drawn)
         for streaks in streaks_of(
             particles, _selected(simulation, particles, drawn), drawn.looks, window, cameras[0] != cameras[1], number
@@ -62,6 +62,12 @@ def window_of(image: ImagePlan, simulation: Simulation, frame: int) -> Window:
     phase, shutter = image.window(time, frame)
     opening, closing = (max(time - back / clock.fps, clock.start) for back in (phase + shutter, phase))
     return Window(opening, closing, time, clock.start, clock.fps)
+
+
+def _has_begun(image: ImagePlan, simulation: Simulation, frame: int) -> bool:
+    """Return whether an image's shutter closes no earlier than the simulation begins: before, there are no particles."""
+    time = simulation.clock.time_of(frame)
+    return image.window(time, frame)[0] <= (time - simulation.clock.start) * simulation.clock.fps + 1e-6
 
 
 def _sources(simulation: Simulation, drawn: Drawn) -> list[Particles]:

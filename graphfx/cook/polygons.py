@@ -12,7 +12,7 @@ from graphfx.cook.textures import check_texture, load_texture
 from graphfx.errors import GraphError, GraphfxError, LimitError, Problem
 from graphfx.geometry.mesh import Mesh
 from graphfx.graph.flat import FlatNode
-from graphfx.plan.pictures import ImagePlan, plain_value
+from graphfx.plan.pictures import ImagePlan, plain_value, value_at
 from graphfx.render.polygons import Light, Lighting, Polygons
 from graphfx.render.textures import Texture
 
@@ -50,7 +50,7 @@ class PolygonMaker:
 
     def polygons(self, node: FlatNode, time: float, frame: int) -> Polygons:
         """Return a node's polygons as they are at a time [s]."""
-        given = {name: plain_value(value, time, frame) for name, value in node.arguments.items()}
+        given = {name: value_at(node, name, time, frame) for name in node.arguments}
         mesh, normals = self._moved(node, time, frame)
         return Polygons(
             mesh.vertices, mesh.triangles, normals if given["shading"] == "smooth" else None, mesh.coordinates,
@@ -104,7 +104,7 @@ def _at(node: FlatNode, name: str, error: GraphfxError) -> list[Problem]:
 def lighting_of(image: ImagePlan, time: float, frame: int) -> Lighting:
     """Return the light of a picture at a time [s]."""
     lights = [
-        Light(plain_value(node.arguments["direction"], time, frame), plain_value(node.arguments["color"], time, frame))
+        Light(value_at(node, "direction", time, frame), value_at(node, "color", time, frame))
         for node in image.lights
     ]
     return Lighting(lights, image.value("ambient", time, frame))

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Any
 
+from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatNode, TimeSettings
-from graphfx.graph.values import Literal, Value
+from graphfx.graph.literals import out_of_range
+from graphfx.graph.values import Keys, Literal, Value
+from graphfx.node import INFINITY
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.sources import Sources, either
@@ -16,6 +20,8 @@ READ = {
     "preview": ("position", "color", "opacity"),
 }
 """Attributes that a picture reads, by the role of the node that draws it."""
+ROUNDING = 1e-6
+"""How far beyond its range an expression may be by rounding, beside its bound."""
 MOTION = 0.5
 """Frames over which velocities are taken where the shutter stays shut."""
 
@@ -42,7 +48,7 @@ class ImagePlan:
 
     def value(self, name: str, time: float = 0.0, frame: int = 0) -> Any:
         """Return one of the image's parameters, or None where its node has no such parameter."""
-        return plain_value(self.node.arguments[name], time, frame) if name in self.node.arguments else None
+        return value_at(self.node, name, time, frame) if name in self.node.arguments else None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -91,6 +97,29 @@ def plain_value(value: Value, time: float = 0.0, frame: int = 0) -> Any:
     if isinstance(value, Literal):
         return value.value
     return timed_value(value, time, frame)
+
+
+def value_at(node: FlatNode, name: str, time: float, frame: int) -> Any:
+    """Return a node's parameter at a time; raise GraphError where it is no number, or out of its range.
+
+    Keys are in range: what a spline through them has beyond it is brought back, and so is what rounding has.
+    """
+    given, parameter = node.arguments[name], node.node_type.parameters[name]
+    found = plain_value(given, time, frame)
+    if isinstance(given, Literal) or isinstance(found, bool):
+        return found
+    parts = found if isinstance(found, tuple) else (found,)
+    low = -math.inf if parameter.min is None else parameter.min
+    high = math.inf if parameter.max is None else parameter.max
+    kept = tuple(min(max(part, low), high) for part in parts)
+    near = all(abs(part - bound) <= ROUNDING * (1 + abs(bound)) for part, bound in zip(parts, kept, strict=True) if part != bound)
+    wrong = "" if isinstance(given, Keys) or near else out_of_range(tuple(float(f"{part:.6g}") for part in parts), parameter)
+    if any(math.isnan(part) or (math.isinf(part) and parameter.default != INFINITY) for part in parts):
+        wrong = f"{name} is {', '.join(f'{part:g}' for part in parts)}; it must be finite"
+    if wrong:
+        place = given.location if given.location.line else node.location
+        raise GraphError(Problem(f"at {time:g} s, frame {frame}, {wrong}", place, given.path or f"nodes.{node.path}.{name}"))
+    return kept if isinstance(found, tuple) else kept[0]
 
 
 def image_plan(node: FlatNode, sources: Sources) -> ImagePlan:

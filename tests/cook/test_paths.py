@@ -176,3 +176,9 @@ def test_not_finite_particles_are_dropped_once(name):
     film = draw(found.plan.images[0], simulation, 4, 1)
     broken = sum(~np.isfinite(simulation.particles["sky"].store.column(name)[0]))
     assert 0 < film.dropped == broken
+
+
+def test_nothing_is_seen_before_the_beginning():
+    """While the shutter closes before the simulation begins there is nothing; then the particle's way begins at its birth."""
+    found = scene([], ONE, shutter=0.5, phase=3, frames=6)
+    assert [bool(film.pixels.any()) for film in (found.film(frame) for frame in range(1, 7))] == [False] * 3 + [True] * 3
