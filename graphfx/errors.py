@@ -24,7 +24,7 @@ EXIT_COOK = 5
 EXIT_BUG = 70
 """graphfx itself is wrong; `--debug` shows where."""
 EXIT_INTERRUPTED = 130
-"""Stopped by Ctrl-C; whole files are kept."""
+"""Stopped by Ctrl-C; whole files are kept. A signal that asks to stop gives 128 + its number."""
 
 
 @dataclass(frozen=True, order=True)

@@ -13,7 +13,8 @@ import click
 from click import exceptions
 
 from graphfx.cli.options import Settings
-from graphfx.errors import EXIT_BUG, EXIT_INTERRUPTED, EXIT_LIMIT, EXIT_OK, EXIT_USAGE, GraphfxError, Problem, suggestion
+from graphfx.cli.stopping import exit_code, say, stoppable
+from graphfx.errors import EXIT_BUG, EXIT_LIMIT, EXIT_OK, EXIT_USAGE, GraphfxError, Problem, suggestion
 
 EXIT_PIPE = 141
 """Whoever read the output has gone, as a shell reports it: 128 + SIGPIPE."""
@@ -24,7 +25,7 @@ def carry_out(command: click.Command, arguments: list[str]) -> int:
     settings = Settings()
     try:
         try:
-            with command.make_context("graphfx", arguments, obj=settings) as context:
+            with stoppable(), command.make_context("graphfx", arguments, obj=settings) as context:
                 command.invoke(context)
         finally:
             sys.stdout.flush()
@@ -32,9 +33,9 @@ def carry_out(command: click.Command, arguments: list[str]) -> int:
         return end.exit_code
     except BrokenPipeError:
         return _leave_quietly()
-    except (KeyboardInterrupt, click.Abort):
-        click.echo("stopped", err=True)
-        return EXIT_INTERRUPTED
+    except (KeyboardInterrupt, click.Abort) as stop:
+        say("stopped")
+        return exit_code(stop)
     except exceptions.UsageError as error:
         click.echo(usage_message(error), err=True)
         return EXIT_USAGE

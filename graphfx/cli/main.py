@@ -62,7 +62,8 @@ def main(context: click.Context) -> None:
     graphfx nodes vortex
 
     Exit codes: 0 done, 1 a graph or node is wrong, 2 the command line is wrong, 3 an output cannot be
-    written, 4 a limit was reached, 5 the cook failed, 70 graphfx itself is wrong, 130 stopped by Ctrl-C.
+    written, 4 a limit was reached, 5 the cook failed, 70 graphfx itself is wrong, 130 stopped by Ctrl-C,
+    128 + N by signal N.
     """
     if context.invoked_subcommand is None:
         click.echo(context.get_help())

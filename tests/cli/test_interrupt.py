@@ -1,4 +1,4 @@
-"""Ctrl-C: whole files, and the command to go on with."""
+"""Ctrl-C, and the signals that mean the same: whole files, and the command to go on with."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from graphfx.cli.stopping import Stopped, stoppable
 from graphfx.cook.frames import parse_frames
 
 LAST = 5000
@@ -64,3 +65,40 @@ def test_interrupt_leaves_no_movie(started: Callable[..., subprocess.Popen[str]]
     assert shlex.split(command) == ["graphfx", "preview", "long.json", "--out", "shown/long.webp", "--size", "64x36",
                                     "--limit-pixels", "9999", "--frames", f"1-{LAST}"]
     assert list((folder / "shown").iterdir()) == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there are no such signals there")
+@pytest.mark.parametrize(("name", "code"), [("SIGTERM", 143), ("SIGHUP", 129)])
+@pytest.mark.parametrize("output", [{"file": "x.####.exr", "deep": True}, None])
+def test_signals_leave_nothing_partial(started, folder: Path, name: str, code: int, output: dict[str, object] | None) -> None:
+    """Told twice to stop, as `timeout` does, a cook cleans as after Ctrl-C and prints the command; 128 + the signal's number."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["time"]["frames"] = [1, LAST]
+    graph["nodes"]["frames"] |= output or {}
+    if output is None:
+        graph["nodes"]["shown"] = {"type": "movie", "image": "frames", "file": "x.webp"}
+    (folder / "long.json").write_text(json.dumps(graph))
+    process = started("cook", "long.json", "--out", "made")
+    assert any(line.startswith("frame 4 ") for line in process.stderr)
+    for _ in range(2):
+        process.send_signal(getattr(signal, name))
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (code, "")
+    stopped, command = err.splitlines()[-2:]
+    assert re.match(r"stopped after frame \d+; all files in made are whole", stopped)
+    assert shlex.split(command)[:-1] == ["graphfx", "cook", "long.json", "--out", "made", "--frames"]
+    assert [file.name for file in (folder / "made").iterdir() if file.suffix not in ((".exr",) if output else ())] == []
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there is no such signal there")
+def test_what_is_ignored_stays_so(folder: Path) -> None:
+    """Under nohup a closed terminal does not stop a cook; elsewhere the former handlers are there again afterwards."""
+    former = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.getsignal(signal.SIGTERM)
+    try:
+        with stoppable():
+            os.kill(os.getpid(), signal.SIGHUP)
+            with pytest.raises(Stopped):
+                signal.raise_signal(signal.SIGTERM)
+        assert (signal.getsignal(signal.SIGHUP), signal.getsignal(signal.SIGTERM)) == (signal.SIG_IGN, former[1])
+    finally:
+        signal.signal(signal.SIGHUP, former[0])

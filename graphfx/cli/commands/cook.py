@@ -17,7 +17,8 @@ import click
 
 from graphfx.cli.options import debug, library, limits, parameters, threads
 from graphfx.cli.progress import in_words, progress_for
-from graphfx.errors import EXIT_INTERRUPTED, OutputError
+from graphfx.cli.stopping import exit_code, say
+from graphfx.errors import OutputError
 
 if TYPE_CHECKING:
     from graphfx.cook.effect import Effect, FrameReport
@@ -181,9 +182,9 @@ class Cook:
         again = ["graphfx", *again, *typed(context)]
         try:
             yield
-        except KeyboardInterrupt:
-            click.echo("\n  ".join(self.how_to_go_on(again)), err=True)
-            context.exit(EXIT_INTERRUPTED)
+        except KeyboardInterrupt as stop:
+            say("\n  ".join(self.how_to_go_on(again)))
+            context.exit(exit_code(stop))
         except OutputError as error:
             if not self.begun:
                 raise
