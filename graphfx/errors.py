@@ -105,6 +105,13 @@ class CookError(GraphfxError):
     exit_code = EXIT_COOK
 
 
+def how_to_install(error: Exception, extra: str) -> str:
+    """Return, for the error of an import, what is wrong with a library that an extra brings, and what mends it."""
+    if isinstance(error, ModuleNotFoundError):
+        return f'which is not installed; install it by: pip install "graphfx[{extra}]"'
+    return f'which cannot be loaded: {error}; install it again by: pip install --force-reinstall "graphfx[{extra}]"'
+
+
 def suggestion(wrong: str, known: Iterable[str], other_names: dict[str, str] | None = None) -> str:
     """Return " Did you mean 'x'?" for the known name nearest to `wrong`, or nothing.
 

@@ -43,8 +43,8 @@ def _premultiplied(light: np.ndarray) -> np.ndarray:
 
 def _read_exr(file: str) -> np.ndarray:
     name = Path(file).name
-    if not exr.is_there():
-        raise GraphError(exr.INSTALL.replace("written", "read"))
+    if fault := exr.fault("read"):
+        raise GraphError(fault)
     try:
         light = exr.read_exr(file)
     except Exception as error:  # a reader of hostile files may fail in any way

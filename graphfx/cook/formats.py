@@ -42,5 +42,5 @@ def faults_of_format(image: ImagePlan, name: str) -> Iterator[tuple[str, str]]:
             yield "channels", "a PNG holds colour and alpha alone; leave channels out, or let the file's name end in .exr"
         if image.value("deep"):
             yield "deep", "a PNG holds no samples; leave deep out, or let the file's name end in .exr"
-    elif not image.value("deep") and not exr.is_there():
-        yield "file", f"'{name}': {exr.INSTALL}"
+    elif not image.value("deep") and (fault := exr.fault()):
+        yield "file", f"'{name}': {fault}"

@@ -7,9 +7,10 @@ from contextlib import AbstractContextManager, ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePath
 
+from graphfx.output import video as encoding
 from graphfx.output.animation import LARGEST_WEBP, Add, animated_png, animated_webp
 from graphfx.output.atomic import make_folder
-from graphfx.output.video import h264, has_video, prores, video
+from graphfx.output.video import h264, prores, video
 from graphfx.plan.make import Plan
 from graphfx.plan.pictures import ImagePlan, MoviePlan
 
@@ -48,8 +49,8 @@ def fault_of_movie(movie: MoviePlan, name: str) -> str:
         return f"movies are written as {', '.join(KINDS)}; let the name end in one of them"
     if "#" in name:
         return "a movie is one file for all frames; leave # out of its name"
-    if suffix in (".mp4", ".mov") and not has_video():
-        return f"{suffix} needs PyAV; install it with: pip install 'graphfx[video]', or write .webp"
+    if suffix in (".mp4", ".mov") and (fault := encoding.fault()):
+        return f"{suffix} {fault}, or write .webp"
     if suffix == ".mp4" and image.value("transparent"):
         return f"H.264 has no alpha, and '{image.node.path}' is transparent; write .mov, .webp or .png"
     if suffix == ".mp4" and (width % 2 or height % 2):

@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.errors import GraphError, LimitError, Problem
+from graphfx.errors import GraphError, LimitError, Problem, how_to_install
 from graphfx.geometry.mesh import Mesh
 
 FORMATS = (".obj", ".ply", ".stl", ".gltf", ".glb")
 MOST_BYTES = 1 << 30
 """Size of the largest file that is read."""
-INSTALL = 'files of meshes are read by trimesh, which is not installed; install it by: pip install "graphfx[mesh]"'
 
 
 def load_mesh(file: str) -> Mesh:
@@ -29,7 +28,7 @@ def load_mesh(file: str) -> Mesh:
     try:
         import trimesh
     except ImportError as error:
-        raise GraphError(Problem(INSTALL)) from error
+        raise GraphError(Problem(f"files of meshes are read by trimesh, {how_to_install(error, 'mesh')}")) from error
     try:
         found = trimesh.load_scene(str(path), process=False, skip_materials=True)
         parts = [_part(part) for part in found.dump()]

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.errors import GraphError, Problem
+from graphfx.errors import GraphError, Problem, how_to_install
 from graphfx.geometry.mesh import Mesh
 
 FONT = Path(__file__).with_name("fonts") / "DejaVuSans-Bold.ttf"
@@ -15,7 +15,6 @@ FONT = Path(__file__).with_name("fonts") / "DejaVuSans-Bold.ttf"
 LINE = 1.2
 """From one line to the next, in ems."""
 MOST_LETTERS = 2000
-INSTALL = 'text needs {} which is not installed; install it by: pip install "graphfx[text]"'
 
 
 def letters(text: str, size: float, depth: float, font: str, align: str, tracking: float, curve_steps: int) -> Mesh:
@@ -53,11 +52,11 @@ class _Face:
         try:
             from fontTools.ttLib import TTFont
         except ImportError as error:
-            raise GraphError(Problem(INSTALL.format("fonttools,"))) from error
+            raise GraphError(Problem(f"text needs fonttools, {how_to_install(error, 'text')}")) from error
         try:
             import mapbox_earcut
         except ImportError as error:
-            raise GraphError(Problem(INSTALL.format("mapbox_earcut,"))) from error
+            raise GraphError(Problem(f"text needs mapbox_earcut, {how_to_install(error, 'text')}")) from error
         try:
             font = TTFont(file, lazy=True)
             self.glyphs, self.names, self.em = font.getGlyphSet(), font.getBestCmap(), font["head"].unitsPerEm

@@ -11,20 +11,24 @@ from __future__ import annotations
 import io
 import os
 from collections.abc import Mapping
-from importlib.util import find_spec
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from graphfx.errors import how_to_install
 from graphfx.output.atomic import whole_file
 
-INSTALL = 'EXR files are written by OpenEXR, which is not installed; install it by: pip install "graphfx[exr]"'
 GREATEST_HALF = 65504.0
 
 
-def is_there() -> bool:
-    """Return whether the library is installed."""
-    return find_spec("OpenEXR") is not None
+def fault(done: str = "written") -> str:
+    """Return what keeps EXR files from being written, or read, or nothing."""
+    try:
+        import_module("OpenEXR")
+    except Exception as error:  # libraries of other versions make it fail in many ways
+        return f"EXR files are {done} by OpenEXR, {how_to_install(error, 'exr')}"
+    return ""
 
 
 def as_half(values: np.ndarray) -> np.ndarray:

@@ -12,11 +12,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from importlib.util import find_spec
+from importlib import import_module
 from typing import Any
 
 import numpy as np
 
+from graphfx.errors import how_to_install
 from graphfx.output.animation import Add
 from graphfx.output.atomic import whole_path
 
@@ -52,9 +53,13 @@ def prores(transparent: bool) -> Codec:
     return Codec("mov", "prores_ks", "yuv422p10le", BT709, {"profile": "3", "vendor": "apl0"})
 
 
-def has_video() -> bool:
-    """Return whether PyAV is installed."""
-    return find_spec("av") is not None
+def fault() -> str:
+    """Return what keeps movies from being encoded, or nothing."""
+    try:
+        import_module("av")
+    except Exception as error:  # libraries of other versions make it fail in many ways
+        return f"needs PyAV, {how_to_install(error, 'video')}"
+    return ""
 
 
 @contextmanager

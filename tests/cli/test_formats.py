@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-from graphfx.output import exr
 
 BITS = "say so, or let the file's name end in "
 
@@ -59,13 +58,25 @@ def test_all_faults_are_told_at_once(invoke, folder: Path) -> None:
 
 def test_a_missing_library_is_told_before_any_work(invoke, folder: Path, monkeypatch) -> None:
     """The message names the extra that brings it; deep files need no library."""
-    monkeypatch.setattr(exr, "find_spec", lambda name: None)
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
     code, said = told(invoke, folder, file="x.####.exr")
     assert (code, said) == (3, [
         place(folder, "file")
         + "'x.####.exr': EXR files are written by OpenEXR, which is not installed; install it by: pip install \"graphfx[exr]\""])
     assert told(invoke, folder, file="x.####.exr", deep=True)[0] == 0
     assert len(list((folder / "made").glob("x.*.exr"))) == 6
+
+
+def test_a_damaged_library_is_told_before_any_work(invoke, folder: Path, tmp_path_factory, monkeypatch) -> None:
+    """Where OpenEXR is there but cannot be loaded, the message says why, and the extra that brings it."""
+    damaged = tmp_path_factory.mktemp("damaged")
+    (damaged / "OpenEXR.py").write_text("raise ImportError('libz.so.9: no such file')")
+    monkeypatch.syspath_prepend(damaged)
+    monkeypatch.delitem(sys.modules, "OpenEXR", raising=False)
+    assert told(invoke, folder, file="x.####.exr") == (3, [
+        place(folder, "file") + "'x.####.exr': EXR files are written by OpenEXR, which cannot be loaded: libz.so.9: no such "
+        "file; install it again by: pip install --force-reinstall \"graphfx[exr]\""])
+    assert not (folder / "made").exists()
 
 
 @pytest.mark.parametrize("command", ["cook", "check"])

@@ -138,12 +138,24 @@ def test_refused_before_any_work(tmp_path: Path, movie: dict[str, Any], image: d
 
 def test_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Without PyAV a .mp4 is refused before any work, with what to install."""
-    monkeypatch.setattr(movies, "has_video", lambda: False)
+    monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(OutputError) as caught:
         made(nodes={"movie": {"type": "movie", "image": "frames"}}).cook(tmp_path / "out")
-    assert str(caught.value) == ("test.json:37:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV; install it with: "
-                                 "pip install 'graphfx[video]', or write .webp")
+    assert str(caught.value) == ("test.json:37:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which is not "
+                                 'installed; install it by: pip install "graphfx[video]", or write .webp')
     assert names(tmp_path) == []
+
+
+def test_damaged_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Where PyAV is there but cannot be loaded, a .mp4 is refused before any work, with the cause."""
+    (tmp_path / "av.py").write_text("raise ImportError('libx264.so: no such file')")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "av", raising=False)
+    with pytest.raises(OutputError) as caught:
+        made(nodes={"movie": {"type": "movie", "image": "frames"}}).cook(tmp_path / "out")
+    assert str(caught.value) == (
+        "test.json:37:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which cannot be loaded: libx264.so: no such file; "
+        'install it again by: pip install --force-reinstall "graphfx[video]", or write .webp')
 
 
 def test_movie_of_no_image():
