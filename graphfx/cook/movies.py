@@ -10,7 +10,7 @@ from pathlib import Path, PurePath
 from graphfx.output import video as encoding
 from graphfx.output.animation import LARGEST_WEBP, Add, animated_png, animated_webp
 from graphfx.output.atomic import make_folder
-from graphfx.output.video import h264, prores, video
+from graphfx.output.video import LARGEST_H264, LARGEST_PRORES, h264, prores, video
 from graphfx.plan.make import Plan
 from graphfx.plan.pictures import ImagePlan, MoviePlan
 
@@ -33,6 +33,8 @@ KINDS: Mapping[str, Open] = {
     ".png": lambda path, fps, quality, alpha: animated_png(path, fps),
 }
 """What a movie is, by the suffix of its file."""
+LARGEST = {".webp": ("a WebP", LARGEST_WEBP), ".mp4": ("H.264", LARGEST_H264), ".mov": ("ProRes", LARGEST_PRORES)}
+"""What it is called, and the pixels that it may be wide or high; an animated PNG may be any."""
 
 
 def movie_file(movie: MoviePlan, graph: str, out: Path) -> Path:
@@ -51,13 +53,22 @@ def fault_of_movie(movie: MoviePlan, name: str) -> str:
         return "a movie is one file for all frames; leave # out of its name"
     if suffix in (".mp4", ".mov") and (fault := encoding.fault()):
         return f"{suffix} {fault}, or write .webp"
+    if too_large := _too_large(suffix, max(width, height), size):
+        return too_large
     if suffix == ".mp4" and image.value("transparent"):
         return f"H.264 has no alpha, and '{image.node.path}' is transparent; write .mov, .webp or .png"
     if suffix == ".mp4" and (width % 2 or height % 2):
         return f"H.264 needs an even width and height, and {size}; change the size, or write .mov, .webp or .png"
-    if suffix == ".webp" and max(width, height) > LARGEST_WEBP:
-        return f"a WebP is {LARGEST_WEBP} pixels wide and high at most, and {size}; write .png or .mp4"
     return ""
+
+
+def _too_large(suffix: str, side: int, size: str) -> str:
+    """Return that pictures are wider or higher than a movie holds, or nothing."""
+    if suffix not in LARGEST or side <= LARGEST[suffix][1]:
+        return ""
+    called, most = LARGEST[suffix]
+    others = ".mov or .png" if side <= LARGEST_PRORES else ".png"
+    return f"{called} is {most} pixels wide and high at most, and {size}; make them smaller, or write {others}"
 
 
 @contextmanager

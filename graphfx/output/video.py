@@ -23,6 +23,8 @@ from graphfx.output.atomic import whole_path
 
 BT709, SRGB, LIMITED = 1, 13, 1
 """How ITU-T H.273 numbers primaries and matrix, the transfer function of IEC 61966-2-1, and the range."""
+LARGEST_H264, LARGEST_PRORES = 16384, 65535
+"""Pixels that pictures of libx264 and of a .mov may be wide or high."""
 RATE_DENOMINATOR = 1001
 """Frames per second are a fraction with at most this denominator: 30000 / 1001 is exact."""
 

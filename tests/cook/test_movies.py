@@ -119,7 +119,14 @@ FAULTS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
     ({"file": "m.mp4"}, {"transparent": True},
      "'m.mp4': H.264 has no alpha, and 'frames' is transparent; write .mov, .webp or .png"),
     ({"file": "m.webp"}, {"size": [16384, 2]},
-     "'m.webp': a WebP is 16383 pixels wide and high at most, and the pictures of 'frames' are 16384 x 2; write .png or .mp4"),
+     "'m.webp': a WebP is 16383 pixels wide and high at most, and the pictures of 'frames' are 16384 x 2; make them smaller, "
+     "or write .mov or .png"),
+    ({"file": "m.mp4"}, {"size": [20000, 2]},
+     "'m.mp4': H.264 is 16384 pixels wide and high at most, and the pictures of 'frames' are 20000 x 2; make them smaller, or "
+     "write .mov or .png"),
+    ({"file": "m.mov"}, {"size": [2, 65536]},
+     "'m.mov': ProRes is 65535 pixels wide and high at most, and the pictures of 'frames' are 2 x 65536; make them smaller, or "
+     "write .png"),
     ({"file": "../m.webp"}, {},
      "'../m.webp': files cannot leave the output folder; write a name relative to it, with / between folders and no '..'"),
     ({"file": "a.0001.png"}, {"file": "A.####.png"},
@@ -134,6 +141,14 @@ def test_refused_before_any_work(tmp_path: Path, movie: dict[str, Any], image: d
         made(nodes={"movie": {"type": "movie", "image": "frames", **movie}}, image=image).cook(tmp_path / "out")
     assert str(caught.value) == f"test.json:40:15: nodes.movie.file: {message}"
     assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize(("suffix", "size"), [(".mp4", [16384, 2]), (".mov", [2, 65535]), (".webp", [16383, 1])])
+def test_the_largest_is_written(tmp_path: Path, suffix: str, size: list[int]):
+    """A movie as wide or high as its codec takes is written."""
+    movie = {"type": "movie", "image": "frames", "file": f"m{suffix}"}
+    made(nodes={"movie": movie}, image={"size": size}).cook(tmp_path, frames=[1])
+    assert names(tmp_path) == [f"m{suffix}"]
 
 
 def test_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
