@@ -10,6 +10,7 @@ import numpy as np
 from graphfx.cook.meshes import Meshes, Standing
 from graphfx.cook.textures import check_texture, load_texture
 from graphfx.errors import GraphError, GraphfxError, LimitError, Problem
+from graphfx.geometry.creases import creased
 from graphfx.geometry.mesh import Mesh
 from graphfx.graph.flat import FlatNode
 from graphfx.plan.pictures import ImagePlan, plain_value, value_at
@@ -25,7 +26,7 @@ class PolygonMaker:
     def __init__(self, meshes: Meshes):
         """Read nothing yet."""
         self.meshes = meshes
-        self._kept: dict[str, tuple[Standing, tuple[Mesh, np.ndarray]]] = {}
+        self._kept: dict[tuple[str, bool], tuple[Standing, tuple[Mesh, np.ndarray | None]]] = {}
         self._textures: dict[tuple[str, bool], Texture] = {}
 
     def prepare(self, images: Iterable[ImagePlan]) -> None:
@@ -51,22 +52,22 @@ class PolygonMaker:
     def polygons(self, node: FlatNode, time: float, frame: int) -> Polygons:
         """Return a node's polygons as they are at a time [s]."""
         given = {name: value_at(node, name, time, frame) for name in node.arguments}
-        mesh, normals = self._moved(node, time, frame)
+        mesh, normals = self._moved(node, given["shading"] == "smooth", time, frame)
         return Polygons(
-            mesh.vertices, mesh.triangles, normals if given["shading"] == "smooth" else None, mesh.coordinates,
-            given["color"], float(given["opacity"]), str(given["shading"]), self._texture(node, "color_map"),
-            self._texture(node, "opacity_map"), bool(given["double_sided"]),
+            mesh.vertices, mesh.triangles, normals, mesh.coordinates, given["color"],
+            float(given["opacity"]), str(given["shading"]), self._texture(node, "color_map"), self._texture(node, "opacity_map"),
+            bool(given["double_sided"]),
         )
 
-    def _moved(self, node: FlatNode, time: float, frame: int) -> tuple[Mesh, np.ndarray]:
-        """Return a node's mesh as it stands, and the normals of its vertices; both are kept while it stands so."""
+    def _moved(self, node: FlatNode, smooth: bool, time: float, frame: int) -> tuple[Mesh, np.ndarray | None]:
+        """Return a node's mesh as it stands, and the normals of its vertices if it is smooth; kept while it stands so."""
         path = node.references["geometry"]
-        standing = self.meshes.standing(path, time, frame)
-        if path not in self._kept or self._kept[path][0] != standing:
+        standing, key = self.meshes.standing(path, time, frame), (path, smooth)
+        if key not in self._kept or self._kept[key][0] != standing:
             self._mesh(node)
             mesh = self.meshes.mesh(path, standing)
-            self._kept[path] = standing, (mesh, mesh.shading_normals())
-        return self._kept[path][1]
+            self._kept[key] = standing, creased(mesh) if smooth else (mesh, None)
+        return self._kept[key][1]
 
     def _mesh(self, node: FlatNode) -> None:
         """Make the mesh of a node; raise GraphError for one that cannot be drawn so."""

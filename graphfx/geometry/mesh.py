@@ -50,6 +50,13 @@ class Mesh:
         """Return the unit normals of all triangles; 0 where a triangle has no area."""
         return unit_rows(self.crosses)
 
+    @property
+    def corner_angles(self) -> np.ndarray:
+        """Return the angles (m, 3 corners) of all triangles [rad]."""
+        corners = self.corners
+        there, before = (unit_rows(np.roll(corners, way, axis=1) - corners) for way in (-1, 1))
+        return np.arccos(np.clip((there * before).sum(axis=2), -1, 1))
+
     def vertex_normals(self) -> np.ndarray:
         """Return unit normals of the vertices: their own, or the mean of the faces about them weighted by the angle there.
 
@@ -58,12 +65,10 @@ class Mesh:
         if self.normals is not None:
             return unit_rows(self.normals)
         total = np.zeros_like(self.vertices)
-        corners, faces = self.corners, self.face_normals
+        faces, angles = self.face_normals, self.corner_angles
         for k in range(3):
-            there, before = unit_rows(corners[:, (k + 1) % 3] - corners[:, k]), unit_rows(corners[:, k - 1] - corners[:, k])
-            angle = np.arccos(np.clip((there * before).sum(axis=1), -1, 1))
             for axis in range(3):
-                total[:, axis] += np.bincount(self.triangles[:, k], faces[:, axis] * angle, len(total))
+                total[:, axis] += np.bincount(self.triangles[:, k], faces[:, axis] * angles[:, k], len(total))
         return unit_rows(total)
 
     def shading_normals(self) -> np.ndarray:

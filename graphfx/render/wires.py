@@ -14,9 +14,10 @@ FAINT = 0.5
 
 
 def wires_of(polygons: Polygons) -> Streaks:
-    """Return a line for each edge, seen as the shutter closes."""
+    """Return a line for each edge, seen as the shutter closes; vertices at one place count as one."""
     vertices = np.asarray(polygons.vertices, np.float64)
-    edges = _edges(vertices, np.asarray(polygons.triangles, np.int64))
+    _, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
+    edges = _edges(vertices, first[number.reshape(-1)][np.asarray(polygons.triangles, np.int64)])
     color, opacity = np.asarray(polygons.color, np.float32), np.asarray(polygons.opacity, np.float32)
     places = vertices[edges].astype(np.float32)
     return Streaks(

@@ -8,6 +8,7 @@ change with time, and the mesh stands where its transform puts it as the shutter
 are sharp wherever the camera's focus is.
 The alpha of a colour map multiplies the opacity. Maps repeat; they lie on a mesh as its coordinates say, which all shapes
 have and files may have. [Sims 1990, 4]
+Smooth light goes round an edge up to 50 degrees between its faces; a sharper edge stays one. A file's own normals stay.
 """
 
 from graphfx.math import Vec3

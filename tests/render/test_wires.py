@@ -43,3 +43,9 @@ def test_edges_stand_still():
     assert (one == other).all()
     middle = one[18, 32] + one[17, 32]
     assert middle == pytest.approx(FAINT * 0.5 * np.array([0.2, 0.4, 0.8, 1.0]), rel=0.05)
+
+
+def test_vertices_at_one_place_count_as_one():
+    """A box whose triangles share no vertex has twelve edges too."""
+    mesh = box((2.0, 4.0, 6.0))
+    assert wires_of(Polygons(mesh.corners.reshape(-1, 3), np.arange(36).reshape(-1, 3))).count == 12
