@@ -23,7 +23,6 @@ def camera_at(node: FlatNode, time: float, frame: int, cuts: float | None = None
         return cuts if cuts is not None and isinstance(value, Keys) and value.interpolation == "step" else time
 
     given = {name: value_at(node, name, moment(value), frame) for name, value in node.arguments.items()}
-    given["width_of_view"] = given.pop("view_width")
     try:
         return Camera(**given)
     except ValueError as error:

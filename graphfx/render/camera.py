@@ -1,7 +1,7 @@
 """The camera: from the world to the screen.
 
     perspective:   x = width / 2 + f X / w,   y = height / 2 - f Y / w,   f = width lens / 36 mm
-    orthographic:  x = width / 2 + k X,       y = height / 2 - k Y,       k = width / width_of_view
+    orthographic:  x = width / 2 + k X,       y = height / 2 - k Y,       k = width / view_width
 
 X, Y, w are metres to the right, up and ahead of the camera; x, y are pixels, the corner of the
 picture's first row at (0, 0), pixel centres at halves. Everything is float64.
@@ -37,7 +37,7 @@ class Camera:
     """Where the camera is, where it looks, and how it projects.
 
     `position` and `target` are in m; `up` need not be square to the view. `lens` is the focal
-    length in mm (perspective), `width_of_view` the width that the picture shows in m
+    length in mm (perspective), `view_width` the width that the picture shows in m
     (orthographic). Only what lies between the planes `near` and `far`, m ahead, is seen. `f_stop` is
     the lens over the width of its opening (infinite: all is sharp), `focus_distance` the depth that is in focus, m.
     """
@@ -49,7 +49,7 @@ class Camera:
     projection: str = PERSPECTIVE
     near: float = 0.01
     far: float = 1e6
-    width_of_view: float = 10.0
+    view_width: float = 10.0
     f_stop: float = math.inf
     focus_distance: float = 10.0
 
@@ -59,15 +59,15 @@ class Camera:
             raise ValueError(f"projection is {self.projection!r}; it must be '{PERSPECTIVE}' or '{ORTHOGRAPHIC}'")
         if not self.near < self.far or (self.perspective and not self.near > 0.0):
             raise ValueError(f"near is {self.near}, far {self.far}; near must be less than far, and in perspective more than 0")
-        if not (self.lens > 0.0 and self.width_of_view > 0.0):
-            raise ValueError("lens and width_of_view must be more than 0")
+        if not (self.lens > 0.0 and self.view_width > 0.0):
+            raise ValueError("lens and view_width must be more than 0")
         if not self.f_stop > 0.0:
             raise ValueError(f"f_stop is {self.f_stop}; it must be more than 0")
         if self.f_stop < math.inf and not self.perspective:
             raise ValueError("f_stop is for perspective alone: an orthographic camera has no lens, and sees all sharp")
         if self.f_stop < math.inf and not MM * self.lens < self.focus_distance < math.inf:
             raise ValueError(f"focus_distance is {self.focus_distance:g} m; it must be more than the lens, {self.lens:g} mm")
-        numbers = np.abs([*self.position, *self.target, *self.up, self.lens, self.width_of_view])
+        numbers = np.abs([*self.position, *self.target, *self.up, self.lens, self.view_width])
         if not (numbers < GREATEST).all():
             raise ValueError(f"a camera's numbers must be finite, and less than {GREATEST:g}")
 
@@ -98,7 +98,7 @@ class Camera:
 
     def scale(self, width: int) -> float:
         """Return pixels per metre: at w = 1 m in perspective, everywhere in orthographic."""
-        return width * self.lens / FILM_WIDTH if self.perspective else width / self.width_of_view
+        return width * self.lens / FILM_WIDTH if self.perspective else width / self.view_width
 
     def confusion(self, width: int) -> float:
         """Return the radius in pixels to which a point infinitely far away is spread; at depth w it is |1 - s / w| of that."""

@@ -31,7 +31,7 @@ WIDTH, HEIGHT = 1920, 1080
 ROUNDS = 7
 CAMERA = Camera(
     position=(WIDTH / 2, HEIGHT / 2, 0.0), target=(WIDTH / 2, HEIGHT / 2, 1.0), up=(0.0, -1.0, 0.0),
-    projection="orthographic", width_of_view=WIDTH, near=-10.0,
+    projection="orthographic", view_width=WIDTH, near=-10.0,
 )
 PERSPECTIVE = Camera(
     position=(WIDTH / 2, HEIGHT / 2, -1919.0), target=(WIDTH / 2, HEIGHT / 2, 1.0), up=(0.0, -1.0, 0.0), lens=36.0

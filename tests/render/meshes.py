@@ -11,7 +11,7 @@ from graphfx.render.renderer import render
 from .reference import reference
 
 CAMERA = Camera(position=(0.3, 0.2, 6.0), target=(0.1, 0.0, 0.0), lens=40.0)
-FLAT = Camera(position=(0.0, 0.0, 6.0), projection="orthographic", width_of_view=5.0, near=-10.0)
+FLAT = Camera(position=(0.0, 0.0, 6.0), projection="orthographic", view_width=5.0, near=-10.0)
 SIZE = (29, 35)
 """Not multiples of a tile."""
 LIGHTING = Lighting((Light((0.3, -1.0, -0.5), (0.9, 0.8, 0.7)), Light((-1.0, 0.2, -0.4), (0.1, 0.2, 0.3))), (0.05, 0.06, 0.07))

@@ -13,7 +13,7 @@ from graphfx.render.streaks import Streaks
 WIDTH, HEIGHT = 45, 37
 """Not multiples of a tile."""
 CAMERA = Camera(position=(0.3, 0.2, 6.0), target=(0.1, 0.0, 0.0), lens=40.0)
-FLAT = Camera(position=(0.0, 0.0, 6.0), projection="orthographic", width_of_view=5.0, near=-10.0)
+FLAT = Camera(position=(0.0, 0.0, 6.0), projection="orthographic", view_width=5.0, near=-10.0)
 
 
 def streaks(seed: int, count: int = 60, radius=(0.02, 0.3), length: float = 0.5, spread: float = 2.0, **look) -> Streaks:

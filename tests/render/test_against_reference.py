@@ -132,7 +132,7 @@ def test_streaks_in_one_place_are_ordered_by_particle():
 
 def test_ties_keep_their_order_when_something_comes_before_them():
     """Three equal slopes, then a streak that is nearer than half of each."""
-    camera = Camera(projection="orthographic", width_of_view=64.0)
+    camera = Camera(projection="orthographic", view_width=64.0)
     head = np.float32([[-20] * 4, [0] * 4, [0, 0, 0, 4.9]])
     tail = np.float32([[20] * 4, [0] * 4, [5, 5, 5, 4.9]])
     colors = np.float32([[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]])

@@ -37,7 +37,7 @@ def test_longer_lens_magnifies():
 
 def test_orthographic_shows_its_width():
     """A point half the width of view to the left is at the left edge, at any depth."""
-    camera = Camera(projection="orthographic", width_of_view=8.0)
+    camera = Camera(projection="orthographic", view_width=8.0)
     for z in (0, 3):
         assert screen(camera, (-4, 0, z))[:2] == pytest.approx((0, 120))
 
@@ -63,7 +63,7 @@ def test_looking_straight_down_is_no_difficulty(up):
         ({"projection": "fisheye"}, "projection is 'fisheye'"),
         ({"near": 0.0}, "near is 0.0"),
         ({"near": 2.0, "far": 1.0}, "far 1.0"),
-        ({"lens": -1.0}, "lens and width_of_view"),
+        ({"lens": -1.0}, "lens and view_width"),
         ({"position": (np.nan, 0, 0)}, "finite"),
         ({"target": (0, 1e300, 0)}, "less than 1e\\+100"),
     ],

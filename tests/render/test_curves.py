@@ -14,7 +14,7 @@ from graphfx.render.streaks import Streaks
 
 from .scenes import CAMERA, comets, film, streaks
 
-PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
+PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 RING = ((0.2, 0.0), (0.7, 1.0), (0.9, 0.25))
 
 

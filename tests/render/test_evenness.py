@@ -10,7 +10,7 @@ from graphfx.render.falloff import FALLOFFS
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
 
-PIXELS = Camera(projection="orthographic", width_of_view=128.0, position=(0, 0, 10))
+PIXELS = Camera(projection="orthographic", view_width=128.0, position=(0, 0, 10))
 """One pixel a metre, 128 wide."""
 
 

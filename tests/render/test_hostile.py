@@ -33,7 +33,7 @@ def test_film_is_finite(seed):
     draw = np.random.default_rng(seed)
     for _ in range(20):
         perspective = Camera(near=10.0 ** draw.uniform(-12, 0), far=10.0 ** draw.uniform(1, 300))
-        flat = Camera(projection="orthographic", width_of_view=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
+        flat = Camera(projection="orthographic", view_width=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
         for camera in (perspective, flat):
             got = film(wild_streaks(draw, 30), wild_streaks(draw, 30), camera=camera, size=(40, 30))
             assert np.isfinite(got.pixels).all() and got.dropped == 0

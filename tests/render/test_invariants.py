@@ -13,7 +13,7 @@ from graphfx.render.streaks import Streaks
 
 from .scenes import CAMERA, FLAT, comets, film, streaks
 
-PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
+PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 """One pixel a metre, 64 wide."""
 
 

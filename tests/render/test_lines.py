@@ -14,7 +14,7 @@ from .test_hostile import wild_streaks
 
 WIDTH, HEIGHT = 96, 64
 PIXELS = Camera(position=(WIDTH / 2, HEIGHT / 2, 0.0), target=(WIDTH / 2, HEIGHT / 2, 1.0), up=(0.0, -1.0, 0.0),
-                projection="orthographic", width_of_view=WIDTH, near=-10.0)
+                projection="orthographic", view_width=WIDTH, near=-10.0)
 """A metre is a pixel, x to the right and y down."""
 LIGHT = 1e-4
 """Largest error of a line's total light, relative: that of float32 places in a picture."""
@@ -112,7 +112,7 @@ def test_any_size(size):
     """Thin pictures are filled to their edges: a line across all of it is in every column."""
     width, height = size
     camera = Camera(position=(width / 2, height / 2, 0.0), target=(width / 2, height / 2, 1.0), up=(0.0, -1.0, 0.0),
-                    projection="orthographic", width_of_view=width, near=-10.0)
+                    projection="orthographic", view_width=width, near=-10.0)
     across = drawn(line((-10, height / 2), (width + 10, height / 2)), camera=camera, size=size).pixels[..., 3]
     assert across.sum(axis=0) == pytest.approx(np.ones(width), rel=1e-5) or height == 1
 
@@ -159,7 +159,7 @@ def test_film_is_finite(seed):
     draw = np.random.default_rng(seed)
     for _ in range(20):
         perspective = Camera(near=10.0 ** draw.uniform(-12, 0), far=10.0 ** draw.uniform(1, 300))
-        flat = Camera(projection="orthographic", width_of_view=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
+        flat = Camera(projection="orthographic", view_width=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
         for camera in (perspective, flat):
             film = drawn(wild_streaks(draw, 30), wild_streaks(draw, 30), camera=camera, size=(40, 30))
             assert np.isfinite(film.pixels).all() and film.dropped == 0

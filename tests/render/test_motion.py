@@ -11,7 +11,7 @@ from graphfx.render.streaks import Streaks
 
 AHEAD = Camera(position=(0, 0, 0), target=(0, 0, -1), lens=36.0, near=0.5, far=100.0)
 """One metre at a depth of one metre is as wide as the picture."""
-FLAT = Camera(position=(0, 0, 0), target=(0, 0, -1), projection="orthographic", width_of_view=10.0, near=-50, far=50)
+FLAT = Camera(position=(0, 0, 0), target=(0, 0, -1), projection="orthographic", view_width=10.0, near=-50, far=50)
 
 
 def one(head, tail, share=1.0):

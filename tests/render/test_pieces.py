@@ -12,7 +12,7 @@ from graphfx.render.streaks import Streaks
 from .scenes import CAMERA, FLAT, comets, cut, film
 from .test_against_reference import LOOKS, hold
 
-PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
+PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 TURNED = Camera(position=(0.5, 0.1, 5.0), target=(0.0, 0.2, 0.0), lens=35.0, f_stop=0.02, focus_distance=5.0)
 
 

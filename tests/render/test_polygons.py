@@ -16,7 +16,7 @@ from graphfx.render.triangles import face_normals
 from .meshes import CAMERA, film, triangles
 from .scenes import comets, streaks
 
-PIXELS = Camera(projection="orthographic", width_of_view=64.0, position=(0, 0, 10))
+PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 """One pixel a metre, 64 wide, x from -32 to 32."""
 BEHIND = {"lighting": Lighting((Light((0, 0, -1)),), (0, 0, 0))}
 
