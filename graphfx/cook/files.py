@@ -30,7 +30,7 @@ def check_files(plan: Plan, out: Path, frames: Iterable[int]) -> None:
     for output in outputs if some else ():
         node, pattern = output.node, str(output.value("file"))
         names = [file_name(pattern, plan.flat.name, frame) for frame in some]
-        fault = _fault(names, out)
+        fault = _unknown_word(pattern, isinstance(output, MoviePlan)) or _fault(names, out)
         if not fault:
             fault = fault_of_movie(output, pattern) if isinstance(output, MoviePlan) else _fault_of_stills(names)
         if not fault and names[0].lower() in taken:
@@ -48,6 +48,15 @@ def check_files(plan: Plan, out: Path, frames: Iterable[int]) -> None:
 def _problem(node: FlatNode, parameter: str, message: str) -> Problem:
     value = node.arguments[parameter]
     return Problem(message, value.location if value.location.file else node.location, value.path)
+
+
+def _unknown_word(pattern: str, movie: bool) -> str:
+    """Return which word in braces means nothing in a name, and what one may write, or nothing."""
+    for word in re.findall(r"\{[^{}]*\}", pattern):
+        if word != "{graph}":
+            frame = "" if movie else ", #### for the frame's number"
+            return f"{word} means nothing in the name of a file; write {{graph}} for the graph's name{frame}, or no braces"
+    return ""
 
 
 def _fault(names: list[str], out: Path) -> str:

@@ -36,6 +36,8 @@ REFUSED = [
     ({"channels": ["depth"]}, "channels",
      "a PNG holds colour and alpha alone; leave channels out, or let the file's name end in .exr"),
     ({"deep": True}, "deep", "a PNG holds no samples; leave deep out, or let the file's name end in .exr"),
+    ({"file": "{nope}.####.png"}, "file", "'{nope}.####.png': {nope} means nothing in the name of a file; write {graph} for the "
+     "graph's name, #### for the frame's number, or no braces"),
     ({"file": "x.####.tif"}, "file", "'x.####.tif': pictures are written as PNG and as EXR; let the name end in .png or .exr"),
 ]
 

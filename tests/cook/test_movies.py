@@ -127,6 +127,8 @@ FAULTS: list[tuple[dict[str, Any], dict[str, Any], str]] = [
     ({"file": "m.mov"}, {"size": [2, 65536]},
      "'m.mov': ProRes is 65535 pixels wide and high at most, and the pictures of 'frames' are 2 x 65536; make them smaller, or "
      "write .png"),
+    ({"file": "{name}.webp"}, {},
+     "'{name}.webp': {name} means nothing in the name of a file; write {graph} for the graph's name, or no braces"),
     ({"file": "../m.webp"}, {},
      "'../m.webp': files cannot leave the output folder; write a name relative to it, with / between folders and no '..'"),
     ({"file": "a.0001.png"}, {"file": "A.####.png"},
