@@ -62,7 +62,7 @@ class Writer:
             write_png(file, picture, _display(image) == "raw", self.threads)
             return
         light, background = self._exposed(image, film, frame), self._background(image, frame)
-        if background is not None and {"background", "background_image"} & image.node.given:
+        if background is not None and ("background" in image.node.given or image.node.path in self.backdrops):
             light[..., :3] = over(light, background)
             light[..., 3] = 1.0
         write_exr(file, light, film.channels, bits_of(image), self.attributes(image, frame))

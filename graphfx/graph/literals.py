@@ -119,6 +119,8 @@ class Literals:
                 return None, _unlike(want, item)
             return value, ""
         if kind == "path" and item.is_text:
+            if value == want.default == "":
+                return "", ""
             return str(find_file(value, self.folders)), ""
         if kind == "interval" and item.is_list and len(value) == 2 and all(_is_end(part) for part in value):
             start, end = (_INFINITY[part.value] if part.is_text else float(part.value) for part in value)

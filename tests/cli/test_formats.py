@@ -9,6 +9,8 @@ from typing import Any
 
 import pytest
 
+from graphfx.output.exr import read_exr
+
 BITS = "say so, or let the file's name end in "
 
 
@@ -102,3 +104,21 @@ def test_sizes_that_no_picture_has(invoke, folder: Path, size) -> None:
     """0 and a million pixels on a side are told at their place."""
     code, said = told(invoke, folder, size=size)
     assert code == 1 and said[0].endswith(f"{size[0]} is out of range; size must lie between 1 and 65536")
+
+
+def test_a_default_that_is_no_file_may_be_written(invoke, folder: Path) -> None:
+    """"" stands for no map, no background and the font that comes along: the files are those of a graph that leaves it out."""
+    graph = json.loads((folder / "fountain.json").read_text())
+    graph["nodes"] |= {"word": {"type": "mesh_text", "text": "I"}, "sign": {"type": "polygons", "geometry": "word"}}
+    graph["nodes"]["frames"] |= {"from": ["fall", "sign"], "file": "x.####.exr"}
+    (folder / "out.json").write_text(json.dumps(graph))
+    graph["nodes"]["word"]["font"] = graph["nodes"]["sign"]["color_map"] = graph["nodes"]["sign"]["opacity_map"] = ""
+    graph["nodes"]["frames"]["background_image"] = ""
+    (folder / "stated.json").write_text(json.dumps(graph))
+    pictures = []
+    for name in ("out", "stated"):
+        assert invoke("cook", f"{name}.json", "--out", name, "--frames", "6")[0] == 0
+        pictures.append(read_exr(folder / name / "x.0006.exr"))
+    assert (pictures[0] == pictures[1]).all() and (pictures[0][..., 3] == 0).any() and (pictures[0][..., 3] > 0).any()
+    (folder / "none.json").write_text('{"graphfx": 1, "nodes": {"m": {"type": "mesh_file", "file": ""}}}')
+    assert "nodes.m.file: the path is empty; name a file" in invoke("check", "none.json")[1]
