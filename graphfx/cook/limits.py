@@ -105,9 +105,15 @@ def _too_much_memory(plan: Plan, limits: CookLimits) -> Problem | None:
     films = sum(16 * math.prod(image.size) for image in plan.images)
     if limits.memory is None or particles + films + BASE <= limits.memory:
         return None
+    needed, allowed = in_bytes(particles + films + BASE), in_bytes(limits.memory)
+    if limits.memory < BASE:
+        message = (f"graphfx itself takes about {in_bytes(BASE)} of memory, and {allowed} are allowed; allow more than {needed} "
+                   "with --memory")
+    else:
+        message = (f"about {needed} of memory are needed, and {allowed} are allowed; allow more with --memory, or lower the "
+                   "rate, the count or the life of the particles")
     return Problem(
-        f"about {in_bytes(particles + films + BASE)} of memory are needed, and {in_bytes(limits.memory)} are allowed; "
-        "allow more with --memory, or lower the rate, the count or the life of the particles",
+        message,
         notes=(f"particles {in_bytes(particles)}, pictures {in_bytes(films)}, graphfx itself {in_bytes(BASE)}",),
     )
 

@@ -153,7 +153,10 @@ def test_node_that_branches(invoke, folder: Path) -> None:
                               "lower the rate, the count or the life, or allow more with --limit-particles"),
     ("--limit-pixels=500", "a picture of 32 x 18 has 576 pixels, and the limit is 500; "
                            "make it smaller, or allow more with --limit-pixels"),
-    ("--memory=100MB", "about 200.1 MB of memory are needed, and 100 MB are allowed; allow more with --memory, "
+    ("--memory=1M", "graphfx itself takes about 200 MB of memory, and 1 MB are allowed; allow more than 200.1 MB with "
+                    "--memory\n"
+                    "  particles 10.6 kB, pictures 9.3 kB, graphfx itself 200 MB"),
+    ("--memory=200MB", "about 200.1 MB of memory are needed, and 200 MB are allowed; allow more with --memory, "
                        "or lower the rate, the count or the life of the particles\n"
                        "  particles 10.6 kB, pictures 9.3 kB, graphfx itself 200 MB"),
 ])

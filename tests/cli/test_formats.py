@@ -121,4 +121,4 @@ def test_a_default_that_is_no_file_may_be_written(invoke, folder: Path) -> None:
         pictures.append(read_exr(folder / name / "x.0006.exr"))
     assert (pictures[0] == pictures[1]).all() and (pictures[0][..., 3] == 0).any() and (pictures[0][..., 3] > 0).any()
     (folder / "none.json").write_text('{"graphfx": 1, "nodes": {"m": {"type": "mesh_file", "file": ""}}}')
-    assert "nodes.m.file: the path is empty; name a file" in invoke("check", "none.json")[1]
+    assert "nodes.m.file: the path is empty; name a file" in invoke("check", "none.json").err
