@@ -1,7 +1,7 @@
 """A background picture: read, made linear, and fitted to the frame.
 
 It fills the frame as `cover` does in CSS: scaled with its proportions kept until nothing of the frame is bare, its
-middle in the frame's, cut where it is longer. Pictures of 8 and 16 bits are sRGB, EXR is linear; scaling is done on
+middle in the frame's, cut where it is longer. Pictures of 8 and 16 bits are sRGB, floats linear; scaling is done on
 linear light. What is transparent in it shows the background colour.
 """
 
@@ -55,13 +55,14 @@ def _read_exr(file: str) -> np.ndarray:
 
 
 def _fitted(picture: np.ndarray, frame: tuple[int, int]) -> np.ndarray:
-    """Return a premultiplied picture cut and scaled to a frame."""
+    """Return a premultiplied picture cut and scaled to a frame: enlarged by bilinear interpolation, which does not ring."""
     from PIL import Image
 
     height, width = picture.shape[:2]
     part = covering((width, height), frame)
+    way = Image.Resampling.BILINEAR if part[2] - part[0] < frame[0] else Image.Resampling.BICUBIC
     planes = [
-        np.asarray(Image.fromarray(np.ascontiguousarray(picture[..., plane])).resize(frame, Image.Resampling.BICUBIC, part))
+        np.asarray(Image.fromarray(np.ascontiguousarray(picture[..., plane])).resize(frame, way, part))
         for plane in range(4)
     ] if (width, height) != frame else list(np.moveaxis(picture, -1, 0))
     scaled = np.maximum(np.stack(planes, axis=-1), 0.0)

@@ -56,6 +56,16 @@ def test_scaled_picture_is_upright(tmp_path):
     assert scaled[:3, :3].min() > 0.9 and scaled[5:, :, :3].max() < 0.1 and scaled[:, 5:, :3].max() < 0.1
 
 
+def test_enlarged_picture_does_not_ring(tmp_path):
+    """From a dark half to a light one light only rises, and both keep their own beside it."""
+    picture = np.full((6, 6, 3), 100, np.uint8)
+    picture[:, 3:] = 200
+    Image.fromarray(picture).save(tmp_path / "x.png")
+    row = read_backdrop(str(tmp_path / "x.png"), (60, 60))[30, :, 0]
+    assert (np.diff(row) >= 0).all()
+    np.testing.assert_allclose(row[[0, -1]], linear(np.array([100, 200]) / 255), rtol=1e-6)
+
+
 def test_grey_of_sixteen_bits(tmp_path):
     """Numbers of 16 bits are read as such."""
     Image.fromarray(np.array([[0, 32768, 65535]], np.uint16)).save(tmp_path / "x.png")
