@@ -1,7 +1,8 @@
 """Read pictures as textures, by Pillow.
 
 Colours are sRGB and become linear [IEC 61966-2-1]; opacities are as they stand. Pictures of 16 bits keep them
-where they are grey; Pillow reads others with 8.
+where they are grey; Pillow reads others with 8. Greys in floating point are linear already; they are brought to 0 ... 1,
+and what is no number is 0.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 from graphfx.errors import GraphError, LimitError, Problem
 from graphfx.render.textures import MOST_TEXELS, Texture, textured
 
-DEEP = ("I;16", "I;16L", "I;16B", "I;16N", "I")
+DEEP = ("I;16", "I;16L", "I;16B", "I;16N", "I", "F")
 """Pillow's modes of grey pictures with more than 8 bits."""
 
 
@@ -56,7 +57,8 @@ def load_light(file: str) -> np.ndarray:
 
 def _light(picture: Any) -> np.ndarray:
     if picture.mode in DEEP:
-        return _linear(_deep(picture))[..., None].repeat(3, axis=2).astype(np.float32)
+        grey = _deep(picture) if picture.mode == "F" else _linear(_deep(picture)).astype(np.float32)
+        return grey[..., None].repeat(3, axis=2)
     values = np.asarray(picture.convert("RGBA" if picture.has_transparency_data else "RGB"))
     found = _linear(np.arange(256) / 255).astype(np.float32)[values[..., :3]]
     if values.shape[2] == 4:
@@ -92,6 +94,9 @@ def _unreadable(file: str, error: Exception) -> GraphError:
 
 
 def _deep(picture: Any) -> np.ndarray:
+    """Return a grey picture of more than 8 bits as 0 ... 1."""
+    if picture.mode == "F":
+        return np.nan_to_num(np.asarray(picture), nan=0.0).clip(0, 1)
     return np.asarray(picture).astype(np.float32).clip(0, 65535) / np.float32(65535)
 
 

@@ -21,7 +21,7 @@ def polygons(
     color: Vec3 = param((1, 1, 1), type="color", min=0, doc="Its colour, by which a colour map is multiplied."),
     opacity: float = param(1.0, min=0, max=1, doc="1 hides what is behind, 0 is not there; multiplies an opacity map."),
     shading: str = param("flat", choices=("flat", "smooth", "unlit"), doc="Lit by face, lit as if round, or bright by itself."),
-    color_map: str = param("", type="path", doc="A picture of its colour, in sRGB; of 16 bits only where it is grey."),
+    color_map: str = param("", type="path", doc="A picture of its colour, in sRGB; 16 bits where it is grey, floats as light."),
     opacity_map: str = param("", type="path", doc="A picture of its opacity: its alpha, or where it has none how light it is."),
     double_sided: bool = param(True, doc="Whether triangles are seen from behind too, lit as from the front."),
 ) -> None:

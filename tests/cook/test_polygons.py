@@ -92,9 +92,14 @@ def test_particles_are_hidden_and_shine_through(graph):
     ("color.png", np.full((2, 2, 3), 200, np.uint8), linear(200 / 255)),
     ("color.jpg", np.full((8, 8, 3), 200, np.uint8), linear(200 / 255)),
     ("color.tif", np.full((2, 2, 3), 200, np.uint8), linear(200 / 255)),
+    ("deep.tif", np.full((2, 2), 25700, np.uint16), linear(25700 / 65535)),
+    ("whole.tif", np.full((2, 2), 25700, np.int32), linear(25700 / 65535)),
+    ("float.tif", np.full((2, 2), 0.5, np.float32), 0.5),
+    ("bright.tif", np.full((2, 2), 7.0, np.float32), 1.0),
+    ("none.tif", np.full((2, 2), np.nan, np.float32), 0.0),
 ])
 def test_colour_maps_are_linear_light(graph, tmp_path, name, values, expected):
-    """Pictures are sRGB, of 8 bits and of 16."""
+    """Pictures are sRGB, of 8 bits and of 16; in floating point they are linear already, at most 1."""
     picture(tmp_path, name, values)
     np.testing.assert_allclose(pixel(graph({"color_map": name, "color": [1, 1, 0.5]})), [expected, expected, expected / 2, 1],
                                rtol=1e-5)
@@ -103,6 +108,7 @@ def test_colour_maps_are_linear_light(graph, tmp_path, name, values, expected):
 @pytest.mark.parametrize("name, values, expected", [
     ("grey.png", np.full((2, 2), 51, np.uint8), 0.2),
     ("deep.png", np.full((2, 2), 13107, np.uint16), 0.2),
+    ("float.tif", np.full((2, 2), 0.2, np.float32), 0.2),
     ("alpha.png", np.full((2, 2, 4), (255, 255, 255, 51), np.uint8), 0.2),
 ])
 def test_opacity_maps_are_as_they_stand(graph, tmp_path, name, values, expected):
