@@ -13,7 +13,7 @@ from graphfx.geometry.tables import MeshTables
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.node.declare import TRANSFORM
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.pictures import plain_value
+from graphfx.plan.pictures import plain_value, value_at
 from graphfx.plan.rates import depends_on_time
 from graphfx.program import Call, Function
 
@@ -78,9 +78,9 @@ class Meshes:
         self._located(self.flat.nodes[path], check)
 
     def standing(self, path: str, time: float, frame: int) -> Standing:
-        """Return how a mesh stands at a time [s]."""
+        """Return how a mesh stands at a time [s]; raise GraphError where a number of that is not finite."""
         node = self.flat.nodes[path]
-        return tuple(tuple(float(part) for part in plain_value(node.arguments[name], time, frame)) for name in STANDING)
+        return tuple(tuple(float(part) for part in value_at(node, name, time, frame)) for name in STANDING)
 
     def vertices(self, path: str) -> int:
         """Return how many vertices a mesh has."""

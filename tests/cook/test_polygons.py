@@ -220,3 +220,14 @@ def test_polygons_are_no_stream(graph):
     """Operators act on particles alone."""
     path = graph({}, fall={"type": "stack", "from": "wall", "ops": [{"type": "gravity"}]})
     assert any("'wall' is a node of type polygons, which makes no stream of particles" in problem for problem in told(path))
+
+
+@pytest.mark.parametrize("name", ["translate", "rotate", "scale"])
+def test_mesh_that_stands_nowhere_is_told(graph, name):
+    """A transform that is not finite at some time is told with that time, at its parameter."""
+    path = graph({}, face=FACE | {name: {"expr": "vec(1, 1 / (time - 0.5), 1)"}})
+    assert pixel(path, 12)[3] >= 0.0
+    with pytest.raises(GraphError) as raised:
+        pixel(path, 13)
+    assert str(raised.value).endswith(f": nodes.face.{name}: at 0.5 s, frame 13, {name} is 1, inf, 1; it must be finite")
+    assert raised.value.problems[0].location.line == 1
