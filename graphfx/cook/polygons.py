@@ -17,7 +17,8 @@ from graphfx.plan.pictures import ImagePlan, plain_value, value_at
 from graphfx.render.polygons import Light, Lighting, Polygons
 from graphfx.render.textures import Texture
 
-MAPS = ("color_map", "opacity_map")
+MAPS = {"color_map": "a color_map", "opacity_map": "an opacity_map"}
+"""Parameters that name pictures, and how one is spoken of."""
 
 
 class PolygonMaker:
@@ -77,8 +78,8 @@ class PolygonMaker:
             if not len(mesh.triangles):
                 raise GraphError(Problem(f"'{node.path}' draws its triangles, and it has none"))
             if maps and mesh.coordinates is None:
-                raise GraphError(Problem(f"'{node.path}' puts a {maps[0]} on it, and it has no coordinates that say where; take "
-                                         "a shape, or a file that has them (vt in OBJ)"))
+                raise GraphError(Problem(f"'{node.path}' puts {MAPS[maps[0]]} on it, and it has no coordinates that say "
+                                         "where; take a shape, or a file that has them (vt in OBJ)"))
 
         self.meshes.check(node.references["geometry"], check)
 

@@ -185,13 +185,14 @@ def test_texture_that_is_too_large_is_told(graph, tmp_path, monkeypatch):
     ]
 
 
-def test_mesh_without_coordinates_takes_no_map(graph, tmp_path):
+@pytest.mark.parametrize("name, spoken", [("color_map", "a color_map"), ("opacity_map", "an opacity_map")])
+def test_mesh_without_coordinates_takes_no_map(graph, tmp_path, name, spoken):
     """It is told at the mesh, and names who draws it."""
     pytest.importorskip("trimesh")
     picture(tmp_path, "wood.png", np.zeros((2, 2), np.uint8))
     (tmp_path / "plain.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
-    assert told(graph({"color_map": "wood.png"}, face={"type": "mesh_file", "file": "plain.obj"})) == [
-        "<here>/scene.json:1:74: nodes.face: 'wall' puts a color_map on it, and it has no coordinates that say where; take a "
+    assert told(graph({name: "wood.png"}, face={"type": "mesh_file", "file": "plain.obj"})) == [
+        f"<here>/scene.json:1:74: nodes.face: 'wall' puts {spoken} on it, and it has no coordinates that say where; take a "
         "shape, or a file that has them (vt in OBJ)"
     ]
 
