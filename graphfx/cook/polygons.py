@@ -28,7 +28,7 @@ class PolygonMaker:
         """Read nothing yet."""
         self.meshes = meshes
         self._kept: dict[tuple[str, bool], tuple[Standing, tuple[Mesh, np.ndarray | None]]] = {}
-        self._textures: dict[tuple[str, bool], Texture] = {}
+        self._textures: dict[tuple[str, bool, bool], Texture] = {}
 
     def prepare(self, images: Iterable[ImagePlan]) -> None:
         """Make the meshes of pictures and look at their maps; raise GraphError with all that keeps them from being drawn."""
@@ -88,10 +88,10 @@ class PolygonMaker:
         file = str(plain_value(node.arguments[name]))
         if not file:
             return None
-        key = file, name == "color_map"
+        key = file, name == "color_map", plain_value(node.arguments["wrap"]) == "clamp"
         if key not in self._textures:
             try:
-                self._textures[key] = load_texture(*key)
+                self._textures[key] = replace(load_texture(*key[:2]), clamped=key[2])
             except (GraphError, LimitError) as error:
                 raise type(error)(_at(node, name, error)) from error.__cause__
         return self._textures[key]

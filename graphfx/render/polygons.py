@@ -32,7 +32,7 @@ class Polygons:
     | `vertices` | m | (n, 3) |
     | `triangles` | | (m, 3) numbers of vertices, counter-clockwise seen from outside |
     | `normals` | | (n, 3) of the vertices, for `smooth` |
-    | `coordinates` | | (m, 3 corners, 2): places (u, v) in the maps, v upwards; they repeat beyond 0 to 1 |
+    | `coordinates` | | (m, 3 corners, 2): places (u, v) in the maps, v upwards |
     | `color` | linear RGB | one (r, g, b), or (n, 3) of the vertices; at least 0 |
     | `opacity` | 0 to 1 | one number, or (n,) of the vertices; exactly 1 hides what is behind |
     | `shading` | | `flat`: one normal for a triangle; `smooth`: normals of the vertices; `unlit`: no light needed |

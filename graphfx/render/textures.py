@@ -4,7 +4,7 @@
     level = log2 of the texels of level 0 that a pixel spans, the longer way      [Williams 1983, Pyramidal parametrics]
 
 Each level halves the one before, rounded down, every texel the exact mean of what it covers; so all have
-one mean. Texels are premultiplied by their alpha. Beyond 0 ... 1 the picture repeats.
+one mean. Texels are premultiplied by their alpha. Beyond 0 ... 1 the picture repeats, or goes on as it is at its border.
 """
 
 from __future__ import annotations
@@ -42,10 +42,12 @@ def _halved(texels: np.ndarray) -> np.ndarray:
 class Texture:
     """A picture: `texels` float32 (height, width, 4), linear and premultiplied by alpha, the lowest row first.
 
-    `levels` are the pyramid, the picture itself first; `opaque` says that alpha is 1 throughout.
+    `levels` are the pyramid, the picture itself first; `opaque` says that alpha is 1 throughout. A texture that is
+    `clamped` does not repeat.
     """
 
     texels: np.ndarray
+    clamped: bool = False
     levels: list[np.ndarray] = field(init=False)
     opaque: bool = field(init=False)
 
@@ -63,20 +65,24 @@ class Texture:
 
 
 def tables(textures: list[Texture]) -> tuple[np.ndarray, list[tuple[int, int]]]:
-    """Return all levels (m, 3) as (address, width, height), and each texture's first level and their number.
+    """Return all levels (m, 4) as (address, width, height, clamped), and each texture's first level and their number.
 
     Who calls keeps the textures alive.
     """
     rows, spans = list[tuple[int, ...]](), list[tuple[int, int]]()
     for texture in textures:
         spans.append((len(rows), len(texture.levels)))
-        rows += [(level.ctypes.data, level.shape[1], level.shape[0]) for level in texture.levels]
-    return np.array(rows, np.int64).reshape(-1, 3), spans
+        rows += [(level.ctypes.data, level.shape[1], level.shape[0], texture.clamped) for level in texture.levels]
+    return np.array(rows, np.int64).reshape(-1, 4), spans
 
 
 @inner
-def _neighbours(place, size):
+def _neighbours(place, size, clamped):
     """Return the texels before and after a place 0 ... 1, and the way from one to the other."""
+    if clamped:
+        at = min(max(place * size - 0.5, 0.0), size - 1.0)
+        number = int(at)
+        return number, min(number + 1, size - 1), at - number
     at = (place - math.floor(place)) * size - 0.5
     first = math.floor(at)
     number = int(first)
@@ -96,9 +102,9 @@ def _texel(address, texel, share, total):
 @inner
 def _bilinear(levels, level, u, v, share, total):
     """Return four components plus a share of those of one level at (u, v)."""
-    address, width, height = levels[level, 0], levels[level, 1], levels[level, 2]
-    i0, i1, s = _neighbours(u, width)
-    j0, j1, t = _neighbours(v, height)
+    address, width, height, clamped = levels[level, 0], levels[level, 1], levels[level, 2], levels[level, 3] != 0
+    i0, i1, s = _neighbours(u, width, clamped)
+    j0, j1, t = _neighbours(v, height, clamped)
     total = _texel(address, j0 * width + i0, share * (1.0 - s) * (1.0 - t), total)
     total = _texel(address, j0 * width + i1, share * s * (1.0 - t), total)
     total = _texel(address, j1 * width + i0, share * (1.0 - s) * t, total)

@@ -134,6 +134,14 @@ def test_picture_is_upright(graph, tmp_path):
     assert pixels[4, 8, 0] > 0.9 and pixels[11, 8, 0] < 0.1
 
 
+def test_clamped_map_does_not_bleed_over_its_border(graph, tmp_path):
+    """At its left border a picture with a light left and a dark right half is light; if it repeats, the dark comes in."""
+    picture(tmp_path, "halves.png", np.array([[255, 0]], np.uint8))
+    for wrap, first, last in (("repeat", 18 / 32, 14 / 32), ("clamp", 1.0, 0.0)):
+        row = graphfx.load(graph({"opacity_map": "halves.png", "wrap": wrap})).film(1, 1).pixels[8, :, 3]
+        np.testing.assert_allclose(row[[0, -1]], [first, last], atol=1e-6)
+
+
 def told(path: Path) -> list[str]:
     """Return what `check` tells, and hold `cook` to it."""
     problems = problems_of(str(path), ())

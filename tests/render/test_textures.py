@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -40,6 +42,23 @@ def test_between_texels_it_is_bilinear():
     rows = texels[first] * (1 - share)[:, None, None] + texels[(first + 1) % 8] * share[:, None, None]
     expected = rows[:, first] * (1 - share)[None, :, None] + rows[:, (first + 1) % 8] * share[None, :, None]
     np.testing.assert_allclose(pixels, expected, atol=1e-6)
+
+
+def test_clamped_texture_goes_on_as_at_its_border():
+    """From the centres of its outmost texels on it is they, exactly, within the picture and far beyond it."""
+    texels = np.random.default_rng(3).random((8, 8, 3), np.float32)
+    texture = replace(map_of(texels), clamped=True)
+    corners = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]], float)
+    near = flat(sheet(width=64, height=64, coordinates=corners, color_map=texture))[..., :3]
+    for row, column in ((0, 0), (0, -1), (-1, 0), (-1, -1)):
+        np.testing.assert_allclose(near[row, column], texels[row, column], atol=1e-7)
+    np.testing.assert_allclose(near[0], near[3], atol=1e-7)
+    within = flat(sheet(width=64, height=64, coordinates=corners, color_map=map_of(texels)))[..., :3]
+    np.testing.assert_array_equal(near[4:60, 4:60], within[4:60, 4:60])
+    far = flat(sheet(width=64, height=64, coordinates=corners + np.array([0.0, 50.0]), color_map=texture))[..., :3]
+    np.testing.assert_allclose(far, near[:1].repeat(64, axis=0), atol=1e-6)
+    far = flat(sheet(width=64, height=64, coordinates=corners - np.array([50.0, 0.0]), color_map=texture))[..., :3]
+    np.testing.assert_allclose(far, near[:, :1].repeat(64, axis=1), atol=1e-6)
 
 
 @pytest.mark.parametrize("times", [1, 2, 4, 32])
