@@ -62,11 +62,15 @@ def invoke(folder: Path, capsys: pytest.CaptureFixture[str]) -> Invoke:
 
 @pytest.fixture
 def started(folder: Path) -> Callable[..., subprocess.Popen[str]]:
-    """Start the command in a process of its own, in which Ctrl-C does what it does at a terminal."""
+    """Start the command in a process of its own, in which signals do what they do at a terminal."""
+
+    def at_a_terminal() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_DFL)
 
     def start(*arguments: str, **options: Any) -> subprocess.Popen[str]:
         if os.name != "nt":
-            options["preexec_fn"] = lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)
+            options.setdefault("preexec_fn", at_a_terminal)
         return subprocess.Popen([sys.executable, "-m", "graphfx", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True, **options)
 

@@ -93,12 +93,13 @@ def test_signals_leave_nothing_partial(started, folder: Path, name: str, code: i
 @pytest.mark.skipif(os.name == "nt", reason="there is no such signal there")
 def test_what_is_ignored_stays_so(folder: Path) -> None:
     """Under nohup a closed terminal does not stop a cook; elsewhere the former handlers are there again afterwards."""
-    former = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.getsignal(signal.SIGTERM)
+    former = signal.signal(signal.SIGHUP, signal.SIG_IGN), signal.signal(signal.SIGTERM, signal.SIG_DFL)
     try:
         with stoppable():
             os.kill(os.getpid(), signal.SIGHUP)
             with pytest.raises(Stopped):
                 signal.raise_signal(signal.SIGTERM)
-        assert (signal.getsignal(signal.SIGHUP), signal.getsignal(signal.SIGTERM)) == (signal.SIG_IGN, former[1])
+        assert (signal.getsignal(signal.SIGHUP), signal.getsignal(signal.SIGTERM)) == (signal.SIG_IGN, signal.SIG_DFL)
     finally:
         signal.signal(signal.SIGHUP, former[0])
+        signal.signal(signal.SIGTERM, former[1])
