@@ -19,8 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.cameras import camera_at
-from graphfx.cook.pictures import draw, window_of
+from graphfx.cook.pictures import cameras_of, draw, window_of
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.streaks import Shown, way_of
 from graphfx.output.deep import DeepFile
@@ -78,12 +77,12 @@ def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, shown
     fps = simulation.clock.fps
     if window.length <= 0:
         window = window._replace(opening=max(window.closing - MOTION / fps, window.start))
-    cameras = [camera_at(image.camera, at, frame) for at in (window.closing, window.opening)]
+    cameras = cameras_of(image, window, frame)
     for each in shown:
         streaks = each.streaks if each.streaks.tail is not None else way_of(each, window)
         values: dict[str, np.ndarray] = {}
         if "velocity" in image.channels:
-            values["velocity"] = screen_motion(streaks, cameras[0], cameras[1], *image.size, window.length * fps)
+            values["velocity"] = screen_motion(streaks, *cameras, *image.size, window.length * fps)
         if "world_velocity" in image.channels:
             values["world_velocity"] = world_motion(streaks, window.length)
         if "id" in image.channels:

@@ -78,9 +78,9 @@ class Effect:
 
         `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
-        wanted = sorted(set(frames)) if frames is not None else self.frames
+        wanted, limits = sorted(set(frames)) if frames is not None else self.frames, limits or CookLimits()
         check_files(self.plan, Path(out), wanted)
-        check_disk(self.plan, Path(out), wanted, limits or CookLimits())
+        check_disk(self.plan, Path(out), wanted, limits)
         written: list[Path] = []
         with closing(self._cooked(Path(out), wanted, threads or available_threads(), limits)) as cooked:
             for made in cooked:
@@ -89,7 +89,7 @@ class Effect:
                     report(made)
         return written + [movie_file(movie, self.flat.name, Path(out)) for movie in self.plan.movies if wanted]
 
-    def _cooked(self, out: Path, frames: list[int], threads: int, limits: CookLimits | None) -> Generator[FrameReport]:
+    def _cooked(self, out: Path, frames: list[int], threads: int, limits: CookLimits) -> Generator[FrameReport]:
         """Yield the reports of frames as their files are there; a file is written while the next frame is made.
 
         Movies are there when the last report was taken.
@@ -100,7 +100,7 @@ class Effect:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
-        writer = Writer(self.plan, threads, limits.memory if limits else None)
+        writer = Writer(self.plan, threads, limits.memory)
         with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]):

@@ -16,13 +16,17 @@ from graphfx.render.ways import Ways
 
 
 class Window(NamedTuple):
-    """The time for which a shutter is open [s], in the picture of the frame that shows `time`; nothing was before `start`."""
+    """The time for which a shutter is open [s], in the picture of the frame that shows `time`; nothing was before `start`.
+
+    `begun` says whether it closes no earlier than that: else there are no particles to be seen.
+    """
 
     opening: float
     closing: float
     time: float
     start: float
     fps: float
+    begun: bool = True
 
     @property
     def length(self) -> float:

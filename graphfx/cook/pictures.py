@@ -15,6 +15,7 @@ from graphfx.cook.polygons import lighting_of
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.streaks import Shown, streaks_of
 from graphfx.plan.pictures import Drawn, ImagePlan
+from graphfx.render.camera import Camera
 from graphfx.render.film import Film
 from graphfx.render.lines import draw_lines
 from graphfx.render.renderer import NO_LIGHTS, render
@@ -33,10 +34,10 @@ def draw(
     `sampling` is given all streaks and whose they are, and returns what takes their samples.
     """
     window = window_of(image, simulation, frame)
-    cameras = camera_at(image.camera, window.closing, frame), camera_at(image.camera, window.opening, frame, window.closing)
+    cameras = cameras_of(image, window, frame)
     shown = [
         streaks
-        for number, drawn in enumerate(image.streams if _has_begun(image, simulation, frame) else ())
+        for number, drawn in enumerate(image.streams if window.begun else ())
         for particles in _sources(simulation, drawn)
         for streaks in streaks_of(
             particles, _selected(simulation, particles, drawn), drawn.looks, window, cameras[0] != cameras[1], number
@@ -61,13 +62,14 @@ def window_of(image: ImagePlan, simulation: Simulation, frame: int) -> Window:
     time = clock.time_of(frame)
     phase, shutter = image.window(time, frame)
     opening, closing = (max(time - back / clock.fps, clock.start) for back in (phase + shutter, phase))
-    return Window(opening, closing, time, clock.start, clock.fps)
+    begun = phase <= (time - clock.start) * clock.fps + 1e-6
+    return Window(opening, closing, time, clock.start, clock.fps, begun)
 
 
-def _has_begun(image: ImagePlan, simulation: Simulation, frame: int) -> bool:
-    """Return whether an image's shutter closes no earlier than the simulation begins: before, there are no particles."""
-    time = simulation.clock.time_of(frame)
-    return image.window(time, frame)[0] <= (time - simulation.clock.start) * simulation.clock.fps + 1e-6
+def cameras_of(image: ImagePlan, window: Window, frame: int) -> tuple[Camera, Camera]:
+    """Return the cameras as a shutter closes and as it opens; a cut between these is no motion."""
+    closing = camera_at(image.camera, window.closing, frame)
+    return closing, camera_at(image.camera, window.opening, frame, window.closing)
 
 
 def _sources(simulation: Simulation, drawn: Drawn) -> list[Particles]:

@@ -109,6 +109,6 @@ def show_rest(cover, first, light, at):
 
 
 @inner
-def hides(cover, k, group, nearest):
+def hides(layers, k, group, nearest):
     """Return whether nothing from this key on is seen in a group of tile k."""
-    return nearest > cover.layers.limits[k, group]
+    return nearest > layers.limits[k, group]

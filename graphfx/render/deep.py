@@ -208,7 +208,7 @@ def _fill(segments, tiles, number, place, buffer, cover):
         local = localize(segments, q, left + 0.5, top + 0.5)
         first, last = groups_touched(local)
         if first <= group <= last:
-            if cover is not None and hides(cover, k, group, local.nearest):
+            if cover is not None and hides(cover.layers, k, group, local.nearest):
                 return stop, total
             total += count_bits(_gather(segments, q, local, group, tiles.perspective, buffer) & inside)
             most = _fullest(buffer)

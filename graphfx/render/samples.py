@@ -23,6 +23,7 @@ import numpy as np
 from graphfx.lanes import compiled, mask_bits, store
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
+from graphfx.render.cover import hides
 from graphfx.render.layer import (
     GROUP_HEIGHT,
     TILE_HEIGHT,
@@ -104,7 +105,7 @@ def count_samples(segments, tiles, layers, start, stop, counts):
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
             for group in range(first, last + 1):
-                if layers is not None and local.nearest > layers.limits[k, group]:
+                if layers is not None and hides(layers, k, group, local.nearest):
                     continue
                 inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
                 at = GROUP_HEIGHT * group * tiles.width + left
@@ -174,7 +175,7 @@ def gather_samples(segments, tiles, layers, start, stop, planes, room):
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
             for group in range(first, last + 1):
-                if layers is not None and local.nearest > layers.limits[k, group]:
+                if layers is not None and hides(layers, k, group, local.nearest):
                     continue
                 inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
                 at = GROUP_HEIGHT * group * tiles.width + left

@@ -35,6 +35,20 @@ class Piece(NamedTuple):
     start: int
     stop: int
 
+    @property
+    def length(self) -> int:
+        """Return the number of particles."""
+        return self.stop - self.start
+
+    @property
+    def end(self) -> int:
+        """Return the number, of all streams, of the particle that follows."""
+        return self.first + self.length
+
+    def columns(self) -> list[np.ndarray]:
+        """Return the columns of these particles, which must be kept while a kernel reads at their addresses."""
+        return self.stream.columns(self.start, self.stop)
+
 
 @dataclass
 class Scene:
@@ -54,7 +68,7 @@ class Scene:
     @property
     def count(self) -> int:
         """Return the number of particles."""
-        return self.pieces[-1].first + self.pieces[-1].stop - self.pieces[-1].start if self.pieces else 0
+        return self.pieces[-1].end if self.pieces else 0
 
     @property
     def segment_bytes(self) -> int:
@@ -87,24 +101,22 @@ class Scene:
 
     def slab_segments(self, patch: Patch, slab: Slab, most: int) -> tuple[Segments, np.ndarray]:
         """Return the segments of a slab of a patch, at most so many."""
-        segments, at = empty_segments(most + 1, self.extras), 0
+        segments, window, at = empty_segments(most + 1, self.extras), self.window(patch, slab), 0
         for piece in self.pieces:
-            if slab.start < piece.first + piece.stop - piece.start and piece.first < slab.stop:
-                at += self._project(piece, self.window(patch, slab), segments, at)[0]
+            if slab.start < piece.end and piece.first < slab.stop:
+                at += self._project(piece, window, segments, at)[0]
         return segments, np.arange(at, dtype=np.uint32)
 
     def _room(self, piece: Piece, patch: Patch) -> int:
         """Return how many particles of a piece may reach a patch."""
-        count = piece.stop - piece.start
         if self.reaches is None:
-            return count
-        tops, bottoms = (rows[piece.first : piece.first + count] for rows in self.reaches)
+            return piece.length
+        tops, bottoms = (rows[piece.first : piece.end] for rows in self.reaches)
         return int(np.count_nonzero((tops < patch.bottom) & (bottoms >= patch.top)))
 
     def _project(self, piece: Piece, window: Window, segments: Segments, at: int) -> tuple[int, int]:
-        columns = piece.stream.columns(piece.start, piece.stop)
-        count = piece.stop - piece.start
-        kept, dropped = project(addresses(columns), self.view, piece.look, window, piece.first, count, segments, at)
+        columns = piece.columns()
+        kept, dropped = project(addresses(columns), self.view, piece.look, window, piece.first, piece.length, segments, at)
         return kept, dropped
 
     def survey(self, beside: np.ndarray | None = None) -> tuple[Counts, int]:
@@ -117,14 +129,13 @@ class Scene:
         reaches = np.full(self.count, whole.bottom, kind), np.zeros(self.count, kind)
         bounds = ranges(len(self.pieces), self.threads)
         corners = np.zeros((len(bounds), 4, whole.bottom + 1, whole.right + 1), np.int64)
-        dropped = [0] * len(bounds)
+        dropped, window = [0] * len(bounds), self.window(whole)
 
         def work(number: int, first: int, last: int) -> None:
             for piece in self.pieces[first:last]:
-                columns = piece.stream.columns(piece.start, piece.stop)
+                columns = piece.columns()
                 dropped[number] += survey(
-                    addresses(columns), self.view, piece.look, self.window(whole), piece.first, piece.stop - piece.start,
-                    *reaches, corners[number],
+                    addresses(columns), self.view, piece.look, window, piece.first, piece.length, *reaches, corners[number]
                 )
 
         parallel_ranges(work, bounds, self.threads)
@@ -133,13 +144,10 @@ class Scene:
 
     def key_counts(self, patch: Patch, low: int, high: int, shift: int) -> np.ndarray:
         """Count the particles that may touch a patch by (key - low) >> shift, keys as ordered bits from low to high."""
-        counts = np.zeros(((high - low) >> shift) + 1, np.int64)
+        counts, window = np.zeros(((high - low) >> shift) + 1, np.int64), self.window(patch)
         for piece in self.pieces:
-            columns = piece.stream.columns(piece.start, piece.stop)
-            window = self.window(patch)
-            count_keys(
-                addresses(columns), self.view, piece.look, window, piece.first, piece.stop - piece.start, low, high, shift, counts
-            )
+            columns = piece.columns()
+            count_keys(addresses(columns), self.view, piece.look, window, piece.first, piece.length, low, high, shift, counts)
         return counts
 
 

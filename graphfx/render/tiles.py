@@ -201,7 +201,7 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
             local = localize(segments, q, left + 0.5, top + 0.5)
             first, last = groups_touched(local)
             for group in range(first, last + 1):
-                if cover is not None and hides(cover, k, group, local.nearest):
+                if cover is not None and hides(cover.layers, k, group, local.nearest):
                     continue
                 if scratch.counts[group] != OVERFLOWED and not scratch.closed[group]:
                     _draw(segments, tiles, q, local, group, scratch, cover)

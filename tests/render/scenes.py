@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from graphfx.render import compositing
 from graphfx.render.camera import Camera
 from graphfx.render.renderer import render
 from graphfx.render.streaks import Streaks
@@ -68,3 +69,15 @@ def cut(whole: Streaks, *moments: float, joined: bool = True) -> list[Streaks]:
             blend=whole.blend, falloff=whole.falloff, streak=whole.streak,
         ))
     return made
+
+
+def sort_all_whole(monkeypatch) -> None:
+    """Let every group be sorted whole, as if its list had overflowed."""
+    render_tiles = compositing.render_tiles
+
+    def put_all_aside(*given):
+        render_tiles(*given)
+        given[7][:] = True
+        return 0
+
+    monkeypatch.setattr(compositing, "render_tiles", put_all_aside)

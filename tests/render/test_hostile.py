@@ -27,14 +27,18 @@ def wild_streaks(draw, count: int) -> Streaks:
     )
 
 
+def wild_cameras(draw) -> tuple[Camera, Camera]:
+    """Return a camera of deep perspective and one of a wide view, their planes anywhere."""
+    perspective = Camera(near=10.0 ** draw.uniform(-12, 0), far=10.0 ** draw.uniform(1, 300))
+    return perspective, Camera(projection="orthographic", view_width=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
+
+
 @pytest.mark.parametrize("seed", range(8))
 def test_film_is_finite(seed):
     """Positions, radii, colours, planes of any size; the deepest perspective, the widest view."""
     draw = np.random.default_rng(seed)
     for _ in range(20):
-        perspective = Camera(near=10.0 ** draw.uniform(-12, 0), far=10.0 ** draw.uniform(1, 300))
-        flat = Camera(projection="orthographic", view_width=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
-        for camera in (perspective, flat):
+        for camera in wild_cameras(draw):
             got = film(wild_streaks(draw, 30), wild_streaks(draw, 30), camera=camera, size=(40, 30))
             assert np.isfinite(got.pixels).all() and got.dropped == 0
             assert got.pixels[..., 3].min() >= 0.0 and got.pixels[..., 3].max() <= 1.0

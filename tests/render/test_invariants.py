@@ -11,7 +11,7 @@ from graphfx.render.camera import Camera
 from graphfx.render.falloff import FALLOFFS
 from graphfx.render.streaks import Streaks
 
-from .scenes import CAMERA, FLAT, comets, film, streaks
+from .scenes import CAMERA, FLAT, comets, film, sort_all_whole, streaks
 
 PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 """One pixel a metre, 64 wide."""
@@ -58,14 +58,7 @@ def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
     """A group sorted whole holds what its list would have given, to the last bit."""
     streams = [comets(3, 300), streaks(4, 200, blend="add"), *_tied(200)]
     normal = film(*streams, camera=FLAT).pixels
-    render_tiles = compositing.render_tiles
-
-    def put_all_aside(*given):
-        render_tiles(*given)
-        given[7][:] = True
-        return 0
-
-    monkeypatch.setattr(compositing, "render_tiles", put_all_aside)
+    sort_all_whole(monkeypatch)
     assert film(*streams, camera=FLAT).pixels.tobytes() == normal.tobytes()
 
 

@@ -10,7 +10,7 @@ from graphfx.render.lines import draw_lines
 from graphfx.render.streaks import Streaks
 
 from .scenes import CAMERA, comets, streaks
-from .test_hostile import wild_streaks
+from .test_hostile import wild_cameras, wild_streaks
 
 WIDTH, HEIGHT = 96, 64
 PIXELS = Camera(position=(WIDTH / 2, HEIGHT / 2, 0.0), target=(WIDTH / 2, HEIGHT / 2, 1.0), up=(0.0, -1.0, 0.0),
@@ -158,9 +158,7 @@ def test_film_is_finite(seed):
     """Whatever finite numbers a scene is made of, the film is finite, and alpha between 0 and 1."""
     draw = np.random.default_rng(seed)
     for _ in range(20):
-        perspective = Camera(near=10.0 ** draw.uniform(-12, 0), far=10.0 ** draw.uniform(1, 300))
-        flat = Camera(projection="orthographic", view_width=10.0 ** draw.uniform(-3, 3), near=-1e30, far=np.inf)
-        for camera in (perspective, flat):
+        for camera in wild_cameras(draw):
             film = drawn(wild_streaks(draw, 30), wild_streaks(draw, 30), camera=camera, size=(40, 30))
             assert np.isfinite(film.pixels).all() and film.dropped == 0
             assert film.pixels[..., 3].min() >= 0.0 and film.pixels[..., 3].max() <= 1.0

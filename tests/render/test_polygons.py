@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from graphfx.geometry import sphere
-from graphfx.render import Light, Lighting, Polygons, compositing, surfaces
+from graphfx.render import Light, Lighting, Polygons, surfaces
 from graphfx.render.camera import Camera
 from graphfx.render.patches import Patch
 from graphfx.render.renderer import LEAST_MEMORY, render
@@ -14,7 +14,7 @@ from graphfx.render.surfaces import Surfaces
 from graphfx.render.triangles import face_normals
 
 from .meshes import CAMERA, film, triangles
-from .scenes import comets, streaks
+from .scenes import comets, sort_all_whole, streaks
 
 PIXELS = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10))
 """One pixel a metre, 64 wide, x from -32 to 32."""
@@ -205,14 +205,7 @@ def test_patches_change_no_byte(name, monkeypatch):
 def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
     """Groups that are sorted whole put polygons where lists put them."""
     normal = among("loose").pixels
-    render_tiles = compositing.render_tiles
-
-    def put_all_aside(*given):
-        render_tiles(*given)
-        given[7][:] = True
-        return 0
-
-    monkeypatch.setattr(compositing, "render_tiles", put_all_aside)
+    sort_all_whole(monkeypatch)
     assert among("loose").pixels.tobytes() == normal.tobytes()
 
 
