@@ -9,6 +9,7 @@ import numpy as np
 
 from graphfx.cook.particles import NO_ROWS, Arrivals, Particles, padded
 from graphfx.cook.programs import Programs
+from graphfx.cook.sample import Sample
 from graphfx.lanes.compile import compiled
 from graphfx.math.random import key_of
 from graphfx.motion.clock import Interval
@@ -25,16 +26,20 @@ class Nursery:
     """Adds rows for new particles and runs the programs of births."""
 
     programs: Programs
+    sample: Sample | None = None
 
-    def bear(self, particles: Particles, times: np.ndarray, interval: Interval) -> np.ndarray:
-        """Add the particles that an emitter makes at `times`; return their rows."""
-        if not len(times):
-            return NO_ROWS
+    def bear(self, particles: Particles, times: np.ndarray, interval: Interval) -> tuple[np.ndarray, np.ndarray]:
+        """Add the particles that an emitter makes at `times`, as far as they are simulated; return their rows and times."""
         first = particles.store.take_ordinals(len(times))
         ids = np.arange(first, first + len(times), dtype=np.uint64)
+        if self.sample is not None:
+            chosen = self.sample.births(particles.plan.path, first, len(times))
+            ids, times = ids[chosen], times[chosen]
+        if not len(times):
+            return NO_ROWS, times
         rows = self._rows(particles, len(times), ids)
         self._give(particles, particles.plan.path, rows, times, ids, interval, {})
-        return rows
+        return rows, times
 
     def receive(self, particles: Particles, interval: Interval) -> tuple[np.ndarray, np.ndarray]:
         """Add the children that have arrived, in order of time, parent and copy; return their rows and when they begin."""

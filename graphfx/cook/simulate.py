@@ -18,6 +18,7 @@ from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import NO_ROWS, Particles, flagged, padded
 from graphfx.cook.polygons import PolygonMaker
 from graphfx.cook.programs import Programs
+from graphfx.cook.sample import Sample
 from graphfx.cook.spawns import Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Clock, Interval
@@ -29,9 +30,16 @@ MOST_ROUNDS = 1000
 
 
 class Simulation:
-    """All particles of a plan, carried on a frame at a time."""
+    """All particles of a plan, or a sample of them, carried on a frame at a time."""
 
-    def __init__(self, plan: Plan, executor: Executor, threads: int = 1, limit_particles: int | None = None):
+    def __init__(
+        self,
+        plan: Plan,
+        executor: Executor,
+        threads: int = 1,
+        limit_particles: int | None = None,
+        sample: Sample | None = None,
+    ):
         time = plan.flat.time
         self.plan = plan
         self.clock = Clock(time.fps, time.first, time.preroll)
@@ -48,8 +56,8 @@ class Simulation:
                 self.particles[path].past = Particles(emitter, past, None)
         self.interval = Interval(self.clock.start, self.clock.start, self.clock.beginning)
         """The time that was simulated last."""
-        self.nursery = Nursery(self.programs)
-        self.spawns = Spawns(self.programs, self.particles, limit_particles)
+        self.nursery = Nursery(self.programs, sample)
+        self.spawns = Spawns(self.programs, self.particles, limit_particles, sample)
         self.lives = Lives(self.programs, self.nursery, self.spawns)
 
     def _births(self, emitter: EmitterPlan, meshes: Meshes) -> Births | None:
@@ -66,7 +74,7 @@ class Simulation:
         beginning = self.interval
         for particles in self.particles.values():
             if particles.births is not None:
-                born = self.nursery.bear(particles, particles.births.at_start(), beginning)
+                born, _ = self.nursery.bear(particles, particles.births.at_start(), beginning)
                 self.lives.begin(particles, beginning, born, np.zeros(len(born)))
             self._arrive(particles, beginning)
         self._settle(beginning)
@@ -116,7 +124,7 @@ class Simulation:
         particles.begin_frame(interval.end - plan.exposure.reach / self.clock.fps)
         before = store.count
         times = particles.births.within(interval) if particles.births is not None else np.zeros(0)
-        born = self.nursery.bear(particles, times, interval)
+        born, times = self.nursery.bear(particles, times, interval)
         begin = times - interval.start
         self.lives.begin(particles, interval, born, begin)
         arrived, arrived_begin = self.nursery.receive(particles, interval)

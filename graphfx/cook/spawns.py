@@ -10,6 +10,7 @@ import numpy as np
 
 from graphfx.cook.particles import Arrivals, Particles, padded, repeated
 from graphfx.cook.programs import Programs
+from graphfx.cook.sample import Sample
 from graphfx.errors import LimitError, Problem
 from graphfx.math.random import key_of, spawned_id
 from graphfx.motion.clock import Interval
@@ -50,6 +51,7 @@ class Spawns:
     particles: dict[str, Particles]
     limit: int | None = None
     """Particles alive at once, of one source."""
+    sample: Sample | None = None
 
     def at(self, moment: str, parents: Particles, interval: Interval, occasion: Occasion) -> None:
         """Let all spawns that wait for a moment make their children."""
@@ -103,17 +105,15 @@ class Spawns:
         self, spawn: SpawnPlan, parents: Particles, interval: Interval, occasion: Occasion, counts: np.ndarray
     ) -> None:
         places, copies = repeated(counts)
-        rows = occasion.rows[places]
         home = self.particles[spawn.home]
+        made = self._ids(spawn, parents, occasion, places, copies)
+        if self.sample is not None:
+            kept = self.sample.children(spawn.home, made)
+            places, copies, made = places[kept], copies[kept], made[kept]
+            if not len(made):
+                return
+        rows = occasion.rows[places]
         ids = parents.store.column("id")[0][rows]
-        lives = (
-            parents.store.column("lives")[0][rows].astype(np.uint64)
-            if "lives" in parents.store.columns
-            else np.zeros(len(rows), np.uint64)
-        )
-        low, high = key_of(spawn.parents, spawn.node.seed)
-        own = ids ^ np.uint64(low | high << 32)
-        events = occasion.numbers[places].astype(np.uint64)
         times = interval.start + occasion.begin[places]
         given = {}
         for name in home.plan.births[spawn.path].program.loads:
@@ -123,8 +123,23 @@ class Spawns:
                 given[name] = self._of_parent(name[7:], parents, rows, times)
             elif name.startswith("number ") and name[7:] in parents.store.columns and name != "number lives":
                 given[name] = parents.gathered(name[7:], rows, self.programs.real)
-        made = np.asarray(spawned_id(own, lives, events, copies.astype(np.uint64)), np.uint64)
         home.arrivals.append(Arrivals(spawn.path, times, made, given, (ids, copies)))
+
+    @staticmethod
+    def _ids(
+        spawn: SpawnPlan, parents: Particles, occasion: Occasion, places: np.ndarray, copies: np.ndarray
+    ) -> np.ndarray:
+        """Return the ids of children: the `copies`-th of the parents at `places` of the occasion."""
+        rows = occasion.rows[places]
+        lives = (
+            parents.store.column("lives")[0][rows].astype(np.uint64)
+            if "lives" in parents.store.columns
+            else np.zeros(len(rows), np.uint64)
+        )
+        low, high = key_of(spawn.parents, spawn.node.seed)
+        own = parents.store.column("id")[0][rows] ^ np.uint64(low | high << 32)
+        events = occasion.numbers[places].astype(np.uint64)
+        return np.asarray(spawned_id(own, lives, events, copies.astype(np.uint64)), np.uint64)
 
     def _of_parent(self, name: str, parents: Particles, rows: np.ndarray, times: np.ndarray) -> tuple[np.ndarray, ...]:
         real = self.programs.real

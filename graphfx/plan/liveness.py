@@ -12,6 +12,9 @@ from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, moment_of, name
 from graphfx.plan.rates import lane_type
 from graphfx.plan.shutter import Exposure
 
+MEASURED = "what is measured"
+"""A reader that is no part of the graph."""
+
 
 @dataclass
 class Attributes:
@@ -178,8 +181,8 @@ def _needs_id(reading: Reading) -> str:
         return f"names the parents of {holder.spawns[0].path}"
     if holder.of_role("recycle"):
         return "keys the random numbers of later lives"
-    if reading.readers.get("id") == "the renderer":
-        return "read by the renderer"
+    if reading.readers.get("id") in ("the renderer", MEASURED):
+        return f"read by {reading.readers['id']}"
     return "keys the random numbers of a picture's selection" if "id" in reading.readers else ""
 
 

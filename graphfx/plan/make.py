@@ -13,7 +13,7 @@ from graphfx.plan.birth import BirthWriter
 from graphfx.plan.ends import EndWriter
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
-from graphfx.plan.liveness import Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
+from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
 from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
@@ -111,11 +111,12 @@ class Plan:
         return self.flat.time.precision
 
 
-def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
+def make_plan(flat: FlatGraph, *, prune: bool = True, measured: tuple[str, ...] = ()) -> Plan:
     """Plan a flattened graph.
 
     `prune=False` keeps what could be left out, to show that it changes no byte: nodes that no output needs, attributes
     that nothing reads, operators that act outside the simulated time. Those that do nothing are left out either way.
+    `measured` attributes are stored of all sources, where they differ.
     """
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
@@ -125,7 +126,7 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
     movies = [MoviePlan(node, images[node.references["image"]]) for node in outputs if node.node_type.role == "movie"]
     holders = find_holders(sources)
     check_names(holders, flat)
-    planner = _Planner(flat, list(images.values()), holders, prune)
+    planner = _Planner(flat, list(images.values()), holders, prune, measured)
     emitters = {path: planner.emitter(path) for path in reversed(holders)}
     return Plan(flat, schedule, {path: emitters[path] for path in holders}, list(images.values()), movies)
 
@@ -133,8 +134,10 @@ def make_plan(flat: FlatGraph, *, prune: bool = True) -> Plan:
 class _Planner:
     """Plans sources, children before their parents, since those must store what children read."""
 
-    def __init__(self, flat: FlatGraph, images: list[ImagePlan], holders: dict[str, Holder], prune: bool):
-        self.flat, self.images, self.holders, self.prune = flat, images, holders, prune
+    def __init__(
+        self, flat: FlatGraph, images: list[ImagePlan], holders: dict[str, Holder], prune: bool, measured: tuple[str, ...]
+    ):
+        self.flat, self.images, self.holders, self.prune, self.measured = flat, images, holders, prune, measured
         self.stored: dict[str, list[str]] = {}
         """What is stored of each source, as far as it is known."""
         self.attributes = self._all_attributes()
@@ -209,6 +212,7 @@ class _Planner:
     def _attributes(self, holder: Holder, drawn: list[Drawn], exposure: Exposure) -> Attributes:
         """Find what is stored, and what that asks of the parents."""
         reading = Reading(holder)
+        reading.note(self.measured, MEASURED)
         for image in self.images:
             if any(each.path == holder.path for each in image.streams):
                 reading.note(image.reads, "the renderer")

@@ -1,0 +1,157 @@
+"""Simulate a graph under other time settings, without pictures, for some of its particles: what a method does to them.
+
+Particles are told apart by (source, id, life), which no method changes.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from graphfx.cook.births import Births
+from graphfx.cook.executor import BlockExecutor
+from graphfx.cook.particles import Particles
+from graphfx.cook.sample import Census, Sample, ordinals_of
+from graphfx.cook.simulate import Simulation
+from graphfx.graph.flat import FlatGraph
+from graphfx.graph.names import PICTURES
+from graphfx.graph.values import Literal
+from graphfx.motion.clock import Clock
+from graphfx.plan.make import EmitterPlan, Plan, make_plan
+
+MEASURED = ("id", "lives", "position", "velocity")
+
+
+@dataclass
+class States:
+    """The particles of one source at one frame: ids, numbers of lives, positions [m] and velocities [m/s], (n, 3) float64."""
+
+    ids: np.ndarray
+    lives: np.ndarray
+    position: np.ndarray
+    velocity: np.ndarray
+
+    def __len__(self) -> int:
+        """Return how many particles there are."""
+        return len(self.ids)
+
+
+@dataclass
+class Trial:
+    """What came of a simulation: `states` by source and frame, and the `seconds` that it took, all preparation done before.
+
+    `evaluations` are force evaluations of each particle in each frame, on average; `restless` counts contacts that were
+    given up.
+    """
+
+    states: dict[str, dict[int, States]] = field(default_factory=dict)
+    seconds: float = 0.0
+    evaluations: float = 0.0
+    restless: int = 0
+    failed: int = 0
+    """Particles that a method reported it could not carry."""
+
+
+@dataclass
+class Trials:
+    """Runs trials of one graph under one setting: the plan is made and compiled once, and every run begins anew."""
+
+    flat: FlatGraph
+    sample: Sample | None = None
+    threads: int = 1
+    plan: Plan = field(init=False)
+    executor: BlockExecutor = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Make the plan; raise GraphError where the method cannot carry the graph."""
+        self.plan = make_plan(without_shutters(self.flat), measured=MEASURED)
+        self.executor = BlockExecutor(self.plan.precision, self.threads)
+
+    def simulation(self, sample: Sample | None = None) -> Simulation:
+        """Return a simulation from the beginning."""
+        return Simulation(self.plan, self.executor, self.threads, sample=sample or self.sample)
+
+    def run(self, frames: Sequence[int]) -> Trial:
+        """Simulate up to the last of some frames, and keep the states at them."""
+        simulation, wanted, made = self.simulation(), set(frames), Trial()
+        simulation.programs.prepare()
+        made.states = {path: {} for path in simulation.particles}
+        begun = time.perf_counter()
+        with np.errstate(all="ignore"):
+            for frame in simulation.frames(max(wanted)):
+                if frame in wanted:
+                    paused = time.perf_counter()
+                    for path, particles in simulation.particles.items():
+                        made.states[path][frame] = states_of(particles)
+                    begun += time.perf_counter() - paused
+        made.seconds = time.perf_counter() - begun
+        made.restless = sum(particles.unfinished for particles in simulation.particles.values())
+        made.evaluations = self._evaluations()
+        return made
+
+    def _evaluations(self) -> float:
+        """Return the evaluations of each particle in each frame, the mean over the sources that move."""
+        moving = [emitter for emitter in self.plan.emitters.values() if emitter.main is not None]
+        return float(np.mean([self._planned(emitter) for emitter in moving])) if moving else 0.0
+
+    def _planned(self, emitter: EmitterPlan) -> float:
+        """Return how many steps the plan takes in a frame."""
+        return float(self.flat.time.substeps)
+
+
+def sample_of(flat: FlatGraph, most: int, last: int, threads: int = 1) -> Sample:
+    """Choose at most `most` births of each emitter up to a frame, and as many of their children, of each source."""
+    trials = Trials(replace(flat, time=replace(flat.time, method="strang", substeps=1)), threads=threads)
+    simulation = trials.simulation()
+    clock = simulation.clock
+    ordinals = {
+        path: ordinals_of(flat.seed, path, _born(particles.births, clock, last), most)
+        for path, particles in simulation.particles.items()
+        if particles.births is not None
+    }
+    if not any(emitter.spawns for emitter in trials.plan.emitters.values()):
+        return Sample(ordinals)
+    census = Census(ordinals, most=most)
+    with np.errstate(all="ignore"):
+        for _ in trials.simulation(census).frames(last):
+            pass
+    return census.found()
+
+
+def _born(births: Births, clock: Clock, last: int) -> int:
+    """Return how many particles an emitter makes up to a frame."""
+    return len(births.at_start()) + sum(len(births.within(interval)) for interval in clock.intervals(last))
+
+
+def states_of(particles: Particles) -> States:
+    """Return the particles that live at the frame."""
+    rows = particles.living()
+    count = particles.store.count
+
+    def column(name: str, type_: Any) -> np.ndarray:
+        value = particles.value(name) if particles.has(name) else 0.0
+        parts = value if isinstance(value, tuple) else (value,)
+        return np.stack([np.broadcast_to(np.asarray(part), count)[rows].astype(type_) for part in parts], axis=1)
+
+    position, velocity = column("position", np.float64), column("velocity", np.float64)
+    return States(column("id", np.uint64)[:, 0], column("lives", np.int64)[:, 0], position, velocity)
+
+
+def without_shutters(flat: FlatGraph) -> FlatGraph:
+    """Return a graph whose pictures see no past, so that nothing is kept for motion blur."""
+    nodes = dict(flat.nodes)
+    for path, node in flat.nodes.items():
+        if node.node_type.role in PICTURES and "shutter" in node.arguments:
+            nodes[path] = replace(node, arguments=node.arguments | {"shutter": Literal("float", value=0.0)})
+    return replace(flat, nodes=nodes)
+
+
+def spread_frames(frames: Iterable[int], most: int) -> list[int]:
+    """Return at most `most` of some frames, evenly spread, the last among them."""
+    known = sorted(set(frames))
+    places = {len(known) * (k + 1) // min(most, len(known)) - 1 for k in range(min(most, len(known)))}
+    return [known[place] for place in sorted(places)]
