@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 class Graph(Language):
     """A graph under construction.
 
-    `time` are the clock's settings: fps, frames, preroll, substeps, method, tolerance, precision. `name` is what
+    `time` are the clock's settings: fps, frames, preroll, substeps, method, order, tolerance, precision. `name` is what
     its pictures are called, `folder` where its groups and files are sought, `library` further library roots.
     """
 

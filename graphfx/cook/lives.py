@@ -11,11 +11,14 @@ from graphfx.cook.bends import bends_of, new_knots
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import Particles, flagged, padded, repeated
 from graphfx.cook.programs import Programs
+from graphfx.cook.rounds import MOST_ROUNDS, count_turns, new_rounds, put_back, taken, waiting
 from graphfx.cook.spawns import Occasion, Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Interval
 from graphfx.motion.events import DIES, HELD, REBORN
+from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.hits import HIT_TYPES
+from graphfx.plan.pacing import SHARE
 from graphfx.plan.spawning import SpawnPlan
 
 MOST_TURNS = 10_000
@@ -124,15 +127,35 @@ class Lives:
             by_place[f"hit.{name}"] = tuple(zeros.copy() for _ in range(3 if type_ == "vec3" else 1))
         if "knots" in made.program.stores:
             by_place |= new_knots(count, real)
-        self.programs.run(made, particles, interval, rows, by_place=by_place)
+        if SHARE in made.program.stores:
+            by_place |= new_rounds(count, real)
+        self._run_rounds(made, particles, interval, rows, by_place, kept)
         particles.unfinished += int(by_place["unfinished"][0][:count].sum())
-        if kept and "knots" in made.program.stores:
-            particles.bends = particles.bends.joined(bends_of(rows, interval, by_place, particles.since))
         if "fate" not in made.program.stores:
             return unmoved
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
         told = [by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface")]
         return Ends(told[0], told[1], told[2], told[3], hit)
+
+    def _run_rounds(
+        self, made: FrameProgram, particles: Particles, interval: Interval, rows: np.ndarray, by_place: dict[str, Any], kept: bool
+    ) -> None:
+        """Run a program, and again those who wait for another run, gathered with their like, until none waits."""
+        places, given = np.arange(len(rows)), by_place
+        for _ in range(MOST_ROUNDS):
+            self.programs.run(made, particles, interval, rows[places], by_place=given)
+            if kept and "knots" in made.program.stores:
+                particles.bends = particles.bends.joined(bends_of(rows[places], interval, given, particles.since))
+            if SHARE not in made.program.stores:
+                return
+            count_turns(particles, given, len(places))
+            if given is not by_place:
+                put_back(by_place, given, places)
+            places = waiting(places, given, particles.store.column(SHARE)[0][rows[places]])
+            if not len(places):
+                return
+            given = taken(by_place, places)
+        particles.failed += len(places)
 
     def _tell_hits(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray, ends: Ends) -> None:
         """Tell each spawn of the hits of the surfaces to which it listens."""

@@ -68,6 +68,8 @@ class Particles:
     born: np.ndarray = field(default_factory=lambda: NO_ROWS)
     born_at: np.ndarray = field(default_factory=lambda: np.zeros(0))
     unfinished: int = 0
+    failed: int = 0
+    turns: int = 0
     arrivals: list[Arrivals] = field(default_factory=list)
     seeds: dict[str, np.ndarray] = field(default_factory=dict)
     """The places of the seeds of clusters, by name."""

@@ -91,7 +91,9 @@ class Programs:
         }
 
         def at(name: Any) -> float:
-            return named[name] if isinstance(name, str) else (name[1] + shares[name[0]]) * length
+            if isinstance(name, str):
+                return named[name]
+            return (name[1] + (name[2] / name[3] if name[0] == "part" else shares[name[0]])) * length
 
         values: dict[int, Any] = {}
         for name, uniform in made.times.items():

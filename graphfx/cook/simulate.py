@@ -133,7 +133,9 @@ class Simulation:
         since = np.concatenate([np.zeros(before), begin, arrived_begin])
         self.lives.leave_trails(particles, interval, np.arange(particles.store.count), since)
         rejected = NO_ROWS
-        if plan.main is not None:
+        if plan.main is None and plan.own is not None:
+            rejected = np.arange(before)
+        elif plan.main is not None:
             if interval.length * self.clock.fps > 1 - 1e-9:
                 rejected = self.programs.run(plan.main, particles, interval, excluded=dying, count=before)
             else:  # a shorter interval begins the preroll; the shutter opens in another of its steps than is usual

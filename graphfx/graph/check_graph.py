@@ -12,7 +12,7 @@ from graphfx.graph.flat import TimeSettings
 from graphfx.graph.items import Item, shown
 from graphfx.graph.literals import Literals, lane
 from graphfx.graph.model import Entry, Graph, StreamReference
-from graphfx.graph.names import ID, METHODS, PARAM_KEYS, PARAM_TYPES, REFERENCE_TYPES, TIME_KEYS, WORD
+from graphfx.graph.names import ID, METHODS, ORDERS, PARAM_KEYS, PARAM_TYPES, REFERENCE_TYPES, TIME_KEYS, WORD
 from graphfx.graph.values import Literal, ParameterValue
 from graphfx.node import COMMON_KEYS, Parameter
 
@@ -21,6 +21,7 @@ _TIME = {
     "preroll": Parameter("preroll", "float", None, unit="s", min=0, max=1e6),
     "substeps": Parameter("substeps", "int", None, min=1, max=1_000_000),
     "method": Parameter("method", "string", None, choices=METHODS),
+    "order": Parameter("order", "int", None, choices=tuple(map(str, ORDERS))),
     "tolerance": Parameter("tolerance", "float", None, unit="m", min=1e-15, max=1e6),
     "precision": Parameter("precision", "int", None, choices=("32", "64")),
 }

@@ -71,6 +71,7 @@ class TimeSettings:
     preroll: float = 0.0
     substeps: int = 1
     method: str = "auto"
+    order: int = 6
     tolerance: float = 1e-3
     precision: int = 32
 

@@ -6,7 +6,7 @@ import re
 
 TOP_KEYS = ("$schema", "graphfx", "doc", "seed", "time", "use", "params", "attributes", "values", "inputs", "outputs", "expose",
             "nodes")
-TIME_KEYS = ("fps", "frames", "preroll", "substeps", "method", "tolerance", "precision")
+TIME_KEYS = ("fps", "frames", "preroll", "substeps", "method", "order", "tolerance", "precision")
 PARAM_KEYS = ("type", "default", "min", "max", "unit", "doc")
 ATTRIBUTE_KEYS = ("type", "default", "unit", "doc")
 ATTRIBUTE_TYPES = ("float", "vec3", "point", "direction", "color", "cluster")
@@ -19,6 +19,8 @@ PARAM_TYPES = ("float", "int", "bool", "vec3", "point", "direction", "color", "s
 REFERENCE_TYPES = ("node", "nodes", "stream", "selector", "surface", "mesh")
 """Types of parameters that name another node; `nodes` is a list of them."""
 METHODS = ("auto", "exact", "strang", "adaptive", "rk45", "sims")
+ORDERS = (4, 6, 8)
+"""Orders of the method `adaptive`."""
 
 KEYS = {
     "emit": ("type", "doc", "during", "enabled", "seed_key", "clusters", "values", "set"),

@@ -17,6 +17,7 @@ from graphfx.graph.names import (
     LOOKS,
     METHODS,
     MOMENTS,
+    ORDERS,
     PARAM_TYPES,
     PICTURES,
     REFERENCE_TYPES,
@@ -92,6 +93,7 @@ def _top() -> Schema:
         "preroll": {"type": "number", "minimum": 0, "default": 0, "description": "Seconds simulated before the first frame."},
         "substeps": {"type": "integer", "minimum": 1, "default": 1, "description": "Steps of a frame."},
         "method": {"enum": list(METHODS), "default": "auto", "description": "How motion is computed."},
+        "order": {"enum": list(ORDERS), "default": 6, "description": "Order of the method adaptive."},
         "tolerance": {"type": "number", "exclusiveMinimum": 0, "default": 1e-3, "description": "Error of a position [m]."},
         "precision": {"enum": [32, 64], "default": 32, "description": "Bits of a number."},
     }, description="The clock.")

@@ -12,6 +12,8 @@ from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, dist
 from graphfx.plan.hits import Fate, Hit, Hits, response_of
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion, Mover
+from graphfx.plan.pacing import Pacing
+from graphfx.plan.scheme import kept_state
 from graphfx.program import Builder, Column, Operand, Uniform
 
 FIXED = {
@@ -95,22 +97,24 @@ class Contacts:
         step: Column,
         resting: Column | None,
         fade: Callable[[Builder, Column], None],
-    ) -> None:
-        """Write one step that stops at the first contact; `step` becomes the time that was used.
+        pacing: Pacing | None = None,
+    ) -> Column | None:
+        """Write one step that stops at the first contact; `step` becomes the time that was used. Return who met a surface.
 
-        `fade` writes what fades over a time; what is set at a hit comes after it.
+        `fade` writes what fades over a time; what is set at a hit comes after it. With `pacing` a step that is not
+        accurate enough is refused: the particle stays where it was, and the time used is 0.
         """
         whole = moment_of(builder, step)
         if self.motion.method == "sims" or not self.surfaces:
-            start = self.start(builder, state)
-            self.motion.step(whole, state)
-            fade(builder, step)
-            self.main_step(whole, state, None, start)
-            return
+            self._free_step(builder, whole, state, step, fade, pacing)
+            return None
         first = remember(builder, state)
         self.motion.select(whole)
         starts = [None if is_barrier(surface) else distance_of(self.motion, surface, whole, state) for surface in self.surfaces]
-        self.motion.step(whole, state)
+        errors = self.motion.step(whole, state)
+        if pacing is not None and errors is not None:
+            builder = pacing.judge(builder, state, first, step, errors)
+            whole = moment_of(builder, step)
         search = ContactSearch(self.motion, self.barriers, moment_of, state, first, self.resolution)
         search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         candidates = [search.candidate(surface, whole, start) for surface, start in zip(self.surfaces, starts, strict=True)]
@@ -134,6 +138,27 @@ class Contacts:
         stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, step), name="stuck")
         self._slide(builder.under(stuck), moment_of, state, step, best, search.tolerance, fade)
         inner.call(basic.copy_number, best, into=step)
+        if pacing is not None:
+            pacing.meet(builder, met)
+        return met
+
+    def _free_step(
+        self,
+        builder: Builder,
+        whole: Moment,
+        state: State,
+        step: Column,
+        fade: Callable[[Builder, Column], None],
+        pacing: Pacing | None,
+    ) -> None:
+        """Write one step that nothing stops; in the paper's scheme surfaces mirror at its end."""
+        start = self.start(builder, state)
+        first = kept_state(builder, state) if pacing is not None else {}
+        errors = self.motion.step(whole, state)
+        if pacing is not None and errors is not None:
+            builder = pacing.judge(builder, state, first, step, errors)
+        fade(builder, step)
+        self.main_step(whole, state, None, start)
 
     def _chosen(self, builder: Builder, candidate: Candidate, best: Column) -> Column:
         """Return who meets a surface at the time `best`; who was held or ended by one before meets it next, or never."""

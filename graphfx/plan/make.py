@@ -17,6 +17,7 @@ from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes
 from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
+from graphfx.plan.pacing import SHARE
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.shutter import Exposure, exposure_of
@@ -32,9 +33,10 @@ class EmitterPlan:
     """One source of particles: their columns, their operators, their programs.
 
     `births` are the programs of all who make particles of it, its own first. `main` and `own` are None where nothing
-    happens in a step; `closing` is what is set as a frame ends, `closing_at` as a life ends within it. `places` are where
-    that puts particles at instants before, by column: the old ones, and those born after it. `at_death` is what is set then
-    and who begins another life; `seeds` finds positions alone, for clusters. `method` is how motion is computed, `reason` why.
+    happens in a step, `main` also where all particles have steps of their own; `closing` is what is set as a frame ends,
+    `closing_at` as a life ends within it. `places` are where that puts particles at instants before, by column: the old
+    ones, and those born after it. `at_death` is what is set then and who begins another life; `seeds` finds positions
+    alone, for clusters. `method` is how motion is computed, `reason` why.
     `constants` are the attributes that are one for all. `exposure` is what pictures see of the past.
     """
 
@@ -168,8 +170,11 @@ class _Planner:
             exposure = replace(exposure, instants=())
         movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
-        method, reason = choose_method(movers, flat, has_velocity)
-        motion = Motion(movers, method, has_velocity, cells_met(movers, flat.time, method), holder.changing)
+        choice = choose_method(movers, flat, has_velocity)
+        cells = cells_met(movers, flat.time, choice.method)
+        motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
+        if choice.scheme.paced:
+            attributes.store(SHARE, "float", "how long its steps are", "float")
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity
@@ -185,12 +190,12 @@ class _Planner:
             holder,
             attributes,
             motion,
-            method,
-            reason,
+            choice.method,
+            choice.reason,
             {name: constants.find(name).value for name in attributes.constants},
             {maker.path: births.write(maker) for maker in (holder.maker, *holder.adders)},
             exposure,
-            writer.main(exposure.within if moves else []) if moves or writer.acts else None,
+            writer.main(exposure.within if moves else []) if (moves or writer.acts) and not choice.scheme.paced else None,
             writer.own(exposure.within if moves else []) if moves or writer.acts else None,
             ends.closing(),
             ends.closing(own=True) if put else None,

@@ -2,12 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, TimeSettings
 from graphfx.motion.clock import most_cells
 from graphfx.plan.movers import INNER_ROLES, Mover
+from graphfx.plan.scheme import COUNTS, SIMPLE, Scheme
 
 LINEAR_ROLES = ("linear", "noise")
+
+
+@dataclass(frozen=True)
+class Choice:
+    """How motion is computed: the method, why, and its scheme of a step."""
+
+    method: str
+    reason: str
+    scheme: Scheme = SIMPLE
 
 
 def _has_role(movers: list[Mover], *roles: str) -> bool:
@@ -26,14 +38,14 @@ def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
     return most_cells(time.fps, time.preroll, time.substeps)
 
 
-def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[str, str]:
+def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> Choice:
     """Return how the motion is computed, and why: the most exact form that the operators allow.
 
     `drifts` tells whether velocities carry particles beside the operators.
     """
     asked = flat.time.method
     if asked == "sims":
-        return "sims", "asked for: the paper's scheme, first order, operations in stack order"
+        return Choice("sims", "asked for: the paper's scheme, first order, operations in stack order")
     movers = _acting(movers)
     inner = [mover for mover in movers if mover.role in INNER_ROLES]
     parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
@@ -41,15 +53,20 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> tuple[s
         parts.insert(0, "free flight")
     names = ", ".join(parts)
     if not inner:
-        return "exact", f"all motion is linear ({names}): {_how_exact(movers)}"
+        return Choice("exact", f"all motion is linear ({names}): {_how_exact(movers)}")
     if len(inner) == 1 and not _has_role(movers, *LINEAR_ROLES) and _is_alone(inner[0], drifts):
         what = "one flow, which carries by the velocity too" if inner[0].carries else "one flow and nothing else"
-        return "exact", f"{what} ({inner[0].node.node_type.name}): one exact step"
+        return Choice("exact", f"{what} ({inner[0].node.node_type.name}): one exact step")
     if asked == "exact":
         raise GraphError(
-            Problem(f"there is no exact solution for {names} together; choose 'auto' or 'strang'", path="time.method")
+            Problem(f"there is no exact solution for {names} together; choose 'auto' or 'adaptive'", path="time.method")
         )
-    return "strang", f"{_why_composed(inner)} ({names}): composed symmetrically, second order"
+    why = f"{_why_composed(inner)} ({names})"
+    if asked == "adaptive":
+        time = flat.time
+        reason = f"{why}: order {time.order} by extrapolation, steps of each particle's own, {time.tolerance:g} m a second"
+        return Choice("adaptive", reason, Scheme(COUNTS[time.order], time.tolerance))
+    return Choice("strang", f"{why}: composed symmetrically, second order")
 
 
 def _how_exact(movers: list[Mover]) -> str:

@@ -10,14 +10,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphfx.motion import basic, events
+from graphfx.motion import basic, events, pacing
 from graphfx.plan.arithmetic import function_for
 from graphfx.plan.frame_program import FrameProgram, LazyClock
 from graphfx.plan.holder import Holder
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.rates import NOUGHT, Scope
 from graphfx.plan.values import ValueWriter
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Operand, Uniform
 
 ZERO_TIME = Uniform("0", "float", 0.0)
 AGES = ("age", "normalized_age")
@@ -43,7 +43,8 @@ class Moment:
     """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, its begin and end.
 
     `cell_time` gives a time of the p-th cell of held noise that the step meets: "cell" is its number, "cell begin" and
-    "cell end" its ends. All are from the start of the frame [s].
+    "cell end" its ends. All are from the start of the frame [s]. `part` gives the number-th of `count` equal parts of it.
+    A step known to lie in one cell has its number as `cell`.
     """
 
     builder: Builder
@@ -53,6 +54,8 @@ class Moment:
     then: Operand
     cell_time: Callable[[str, int], Operand]
     end: Callable[[], Operand]
+    part: Callable[[int, int], Moment]
+    cell: int | None = None
 
 
 @dataclass
@@ -138,20 +141,26 @@ class Moments:
         writer.shared = self.shared
         return writer
 
-    def whole_step(self, builder: Builder, k: int, state: State) -> Moment:
-        """Return a step that is the same for all particles."""
+    def whole_step(self, builder: Builder, k: int, state: State, number: int = 0, count: int = 1) -> Moment:
+        """Return the number-th of `count` equal parts of a step that is the same for all particles."""
         made = self.made
-        scope = self._scope(builder, state, lambda: made.time(builder, ("middle", k)), {})
-        clock = self._clock(builder, k)
-        writer = self._writer(builder, scope, clock, made.values_at(("middle", k)))
+        parted = count > 1
+
+        def at(share: str, twice: int) -> Operand:
+            return made.time(builder, ("part", k, 2 * number + twice, 2 * count) if parted else (share, k))
+
+        middle = ("part", k, 2 * number + 1, 2 * count) if parted else ("middle", k)
+        scope = self._scope(builder, state, lambda: at("middle", 1), {})
+        writer = self._writer(builder, scope, self._clock(builder, k), made.values_at(middle))
         return Moment(
             builder,
-            made.time(builder, "length"),
-            lambda: made.time(builder, "half"),
+            made.time(builder, ("part", 0, 2, 2 * count) if parted else "length"),
+            lambda: made.time(builder, ("part", 0, 1, 2 * count) if parted else "half"),
             writer,
-            made.time(builder, ("start", k)) if made.cells > 1 else ZERO_TIME,
+            at("start", 0) if made.cells > 1 else ZERO_TIME,
             lambda kind, p: made.time(builder, (kind, k, p)),
-            lambda: made.time(builder, ("end", k)),
+            lambda: at("end", 2),
+            lambda j, n: self.whole_step(builder, k, state, j, n),
         )
 
     def fixed(self, builder: Builder, time: Any, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
@@ -166,8 +175,15 @@ class Moments:
         made = self.made
         return LazyClock({"frame word": lambda: made.time(builder, "frame word")}, lambda path: made.mesh(builder, path, k))
 
-    def own_step(self, builder: Builder, k: int, then: Column, dt: Operand, state: State) -> Moment:
-        """Return a step of each particle's own, from `then` on, within step `k` of the frame."""
+    def own_step(self, builder: Builder, k: int, then: Operand, dt: Operand, state: State, cell: int | None = None) -> Moment:
+        """Return a step of each particle's own, from `then` on, within step `k` of the frame, and in a cell if one is given."""
+
+        def part(number: int, count: int) -> Moment:
+            share = Uniform(f"{number}/{count}", "float", number / count)
+            length = builder.call(pacing.part_of, dt, Uniform(f"1/{count}", "float", 1 / count), name="part") if count > 1 else dt
+            begin = builder.call(pacing.later_by, then, builder.call(pacing.part_of, dt, share)) if number else then
+            return self.own_step(builder, k, begin, length, state, cell)
+
         lane = self._lane_clock(builder, k, lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"))
         lane.makers["half"] = lambda: builder.call(basic.half, dt, name="half")
         scope = self._scope(builder, state, lambda: lane["moment"], {})
@@ -179,6 +195,8 @@ class Moments:
             then,
             lambda kind, p: self.made.time(builder, (kind, k, p)),
             lambda: builder.call(basic.sum_of_numbers, then, dt, name="end"),
+            part,
+            cell,
         )
 
     def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:

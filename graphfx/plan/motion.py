@@ -17,6 +17,7 @@ from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_ste
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
+from graphfx.plan.scheme import SIMPLE, Scheme, write_scheme
 from graphfx.program import Builder, Column, Operand, Uniform
 
 FOR_EVER = Uniform("1e9", "float", 1e9)
@@ -37,6 +38,7 @@ class Motion:
     has_velocity: bool
     cells: int = 1
     changing: frozenset[str] = frozenset()
+    scheme: Scheme = SIMPLE
     linear: LinearMotion = field(init=False)
 
     def __post_init__(self) -> None:
@@ -75,21 +77,28 @@ class Motion:
                     moment.writer.shared[id(value)] = moment.writer.argument(value)
         self.linear.prepare(moment, state)
 
-    def step(self, moment: Moment, state: State) -> None:
-        """Write one step of dt, in place; what stands at one place for all does not move."""
+    def step(self, moment: Moment, state: State) -> dict[str, Operand] | None:
+        """Write one step of dt, in place; return the estimated errors, where there are estimates.
+
+        What stands at one place for all does not move.
+        """
         if not isinstance(state.position, Column):
-            return
+            return None
+        return write_scheme(self.scheme, moment, state, self._symmetric_step)
+
+    def _symmetric_step(self, moment: Moment, state: State) -> None:
+        """Write one step of second order."""
         self.select(moment)
         for mover in self.movers:
             if mover.idle and mover.role in INNER_ROLES:
                 self._apply(mover, moment, state, moment.dt)
         if self.method == "sims":
             self._sims(moment, state)
-        elif self.cells > 1:
+        elif self.cells > 1 and moment.cell is None:
             for cell in range(self.cells):
                 self._compose(self._within_cell(moment, cell), state, cell)
         else:
-            self._compose(moment, state, 0)
+            self._compose(moment, state, moment.cell or 0)
 
     def select(self, moment: Moment) -> None:
         """Write whom each operator acts on: found at the start of a step, and held."""

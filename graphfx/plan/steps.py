@@ -18,6 +18,7 @@ from graphfx.plan.knots import Knots
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
+from graphfx.plan.pacing import MOST_TURNS, Pacing
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
 from graphfx.plan.shutter import Instant
@@ -145,36 +146,64 @@ class FrameWriter:
         now, end = builder.load("begin", "float"), builder.load("end", "float")
         resting = builder.load("resting", "bool") if "resting" in self.attributes.columns else None
         captures = [(builder.load(instant.column, "vec3"), made.time(builder, instant.time)) for instant in instants]
+        scheme = self.motion.scheme
+        most = MOST_CONTACTS * self.substeps if self.motion.of("surface") else 0
+        longest = made.time(builder, "length") if scheme.paced else None
+        pacing = Pacing.begin(builder, scheme, longest, self.precision, most) if longest is not None else None
         knots = Knots(builder) if instants and self.motion.of("surface") and self.motion.method != "sims" else None
         fate = self._fate(builder)
         self.motion.prepare(moments.own_step(builder, 0, now, now, state), state)
         contacts = Contacts(self.motion, self.precision, self.hits, moments, fate)
-        turn = Turn(contacts, self.fade, moments, state, now, resting, captures, knots, fate)
+        turn = Turn(contacts, self.fade, moments, state, now, resting, captures, knots, fate, pacing)
         unfinished: Column | None = None
         for k in range(self.substeps):
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
-            going = turn.going(builder, finish)
-            inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
-            turn.write(inner, k, finish)
-            inner.call(basic.both, *[turn.going(inner, finish)] * 2, into=going)
-            left = builder.call(basic.both, going, going, name="unfinished")
-            unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
+            if pacing is not None:
+                self._paced_turns(builder, moments, k, turn, pacing, finish)
+            else:
+                left = self._turns(builder, k, turn, finish)
+                unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
             if self.fades and resting is not None:
                 turn.rest(builder, k, finish)
+        if pacing is not None and most:
+            unfinished = pacing.restless(builder)
         if resting is not None and unfinished is not None:
             builder.store("resting", builder.call(basic.either, resting, unfinished))
         self.store(builder, [column for column, _ in captures])
         made.program.stores |= knots.stores if knots is not None else {}
+        made.program.stores |= pacing.stores | {"ended": now} if pacing is not None else {}
         made.program.stores |= {"unfinished": unfinished} if unfinished is not None else {}
         if fate is not None:
             made.program.stores |= {"fate": fate.fate, "ended": now, "surface": fate.surface, "begun": fate.begun, **fate.hit}
         share(made.program)
         return made
 
+    @staticmethod
+    def _turns(builder: Builder, k: int, turn: Turn, finish: Column) -> Column:
+        """Write the turns that carry particles to the end of a step; return who did not come to it."""
+        going = turn.going(builder, finish)
+        inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
+        turn.write(inner, k, finish)
+        inner.call(basic.both, *[turn.going(inner, finish)] * 2, into=going)
+        left: Column = builder.call(basic.both, going, going, name="unfinished")
+        return left
+
+    def _paced_turns(self, builder: Builder, moments: Moments, k: int, turn: Turn, pacing: Pacing, finish: Column) -> None:
+        """Write turns of steps of the particles' own, up to the end of each cell of noise; who is not there waits."""
+        for cell in range(self.motion.cells):
+            here = finish
+            if cell + 1 < self.motion.cells:
+                here = builder.call(basic.earlier, finish, moments.made.time(builder, ("cell end", k, cell)), name="cell end")
+            going = turn.going(builder, here)
+            inner = builder.loop(going, MOST_TURNS, "until the particle's end")
+            turn.write(inner, k, here, cell)
+            inner.call(basic.both, *[turn.going(inner, here)] * 2, into=going)
+            builder.call(basic.either, pacing.waiting, going, into=pacing.waiting)
+
     def _fate(self, builder: Builder) -> Fate | None:
-        if not (self.endings or self.hits.ends or self.vital):
+        if not (self.endings or self.hits.ends or self.vital or (self.motion.scheme.paced and self.settings)):
             return None
         nought = Uniform("0", "float", 0.0)
         surface = builder.call(basic.copy_number, Uniform("-1", "float", -1.0), name="surface")
@@ -191,6 +220,8 @@ class FrameWriter:
         """Write what happens at the start of a step to those who are there."""
         start = moments.made.time(builder, ("start", k))
         here = builder.call(basic.both, builder.call(events.is_by, turn.now, start), builder.call(basic.is_less, start, end))
+        if turn.pacing is not None:
+            here = builder.call(basic.both, here, turn.pacing.going(builder), name="here")
         if turn.fate is not None:
             here = builder.call(basic.both, here, builder.call(events.is_going_on, turn.fate.fate), name="here")
             first = builder.call(events.is_by, turn.fate.begun, Uniform(str(k), "float", float(k)), name="first")

@@ -16,7 +16,7 @@ from graphfx.plan.liveness import values_of
 from graphfx.plan.values import node_function
 
 MOVING_ROLES = ("linear", "flow", "acceleration", "velocity", "noise", "surface")
-METHODS = ("auto", "exact", "strang", "sims")
+METHODS = ("auto", "exact", "strang", "adaptive", "sims")
 
 
 def check_support(flat: FlatGraph, order: list[str]) -> None:

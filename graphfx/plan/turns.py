@@ -9,13 +9,15 @@ from graphfx.plan.contacts import Contacts
 from graphfx.plan.hits import Fate
 from graphfx.plan.knots import Knots
 from graphfx.plan.moment import Moment, Moments, State
+from graphfx.plan.pacing import Pacing
 from graphfx.program import Builder, Column, Operand, Uniform
 
 
 class Turn:
     """One turn of the loop in own time: go to the end of the step, or to the first contact on the way.
 
-    `captures` are the columns of places at instants, with their times; `knots` take the hits.
+    `captures` are the columns of places at instants, with their times; `knots` take the hits. With `pacing` a turn is one
+    step of the particle's own, which may be refused.
     """
 
     def __init__(
@@ -29,7 +31,9 @@ class Turn:
         captures: list[tuple[Column, Uniform]],
         knots: Knots | None,
         fate: Fate | None,
+        pacing: Pacing | None = None,
     ):
+        self.pacing = pacing
         self.moments, self.state = moments, state
         self.contacts, self.fade = contacts, fade
         self.now, self.resting, self.fate = now, resting, fate
@@ -42,21 +46,25 @@ class Turn:
             going = builder.call(basic.but_not, going, self.resting, name="going")
         if self.fate is not None:
             going = builder.call(basic.both, going, builder.call(events.is_going_on, self.fate.fate), name="going")
+        if self.pacing is not None:
+            going = builder.call(basic.both, going, self.pacing.going(builder), name="going")
         return going
 
-    def write(self, inner: Builder, k: int, finish: Column) -> None:
+    def write(self, inner: Builder, k: int, finish: Column, cell: int | None = None) -> None:
         """Write the turn."""
         moments, state, now = self.moments, self.state, self.now
         step = inner.call(basic.difference, finish, now, name="step")
+        step = step if self.pacing is None else self.pacing.limit(inner, step)
         before = inner.call(basic.copy_vector, state.position, name="before") if self.captures else None
         then = inner.call(basic.copy_number, now, name="then")
+
         def step_of(builder: Builder, dt: Column) -> Moment:
-            return moments.own_step(builder, k, then, dt, state)
+            return moments.own_step(builder, k, then, dt, state, cell)
 
         def fade(builder: Builder, dt: Column) -> None:
             self.fade(moments.own_step(builder, k, then, dt, state), state)
 
-        self.contacts.own_step(inner, step_of, state, step, self.resting, fade)
+        met = self.contacts.own_step(inner, step_of, state, step, self.resting, fade, self.pacing)
         inner.call(basic.sum_of_numbers, then, step, into=now)
         reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
         inner.under(reached).call(basic.copy_number, finish, into=now)
@@ -65,8 +73,8 @@ class Turn:
             assert before is not None
             inner.call(basic.capture, column, before, state.position, then, now, instant, into=column)
         if self.knots is not None:
-            met = inner.under(inner.call(basic.but_not, inner.mask, reached, name="met"))
-            self.knots.note(met, now, state.position)  # type: ignore[arg-type]
+            hit = inner.call(basic.but_not, inner.mask, reached, name="met") if met is None or self.pacing is None else met
+            self.knots.note(inner.under(hit), now, state.position)  # type: ignore[arg-type]
 
     def rest(self, builder: Builder, k: int, finish: Operand) -> None:
         """Write what fades on particles that are at rest before the end of the step."""
