@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 from graphfx.motion import barrier, basic, contact, events
@@ -114,16 +115,14 @@ class Contacts:
         errors = self.motion.step(whole, state)
         if pacing is not None and errors is not None:
             builder = pacing.judge(builder, state, first, step, errors)
-            whole = moment_of(builder, step)
+            whole = replace(whole, builder=builder)
         search = ContactSearch(self.motion, self.barriers, moment_of, state, first, self.resolution)
         search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         candidates = [search.candidate(surface, whole, start) for surface, start in zip(self.surfaces, starts, strict=True)]
         best = builder.call(basic.copy_number, step, name="contact time")
         for candidate in candidates:
             search.find(candidate, builder.under(candidate.hit), step, best)
-        met = candidates[0].hit
-        for candidate in candidates[1:]:
-            met = builder.call(basic.either, met, candidate.hit, name="met")
+        met = _any_of(builder, [candidate.hit for candidate in candidates])
         inner = builder.under(met)
         return_to(inner, state, first)
         self.motion.step(moment_of(inner, best), state)
@@ -224,3 +223,10 @@ class Contacts:
             builder.under(builder.program.context).call(basic.either, resting, stopped, into=resting)
         return sliding
 
+
+def _any_of(builder: Builder, masks: list[Column]) -> Column:
+    """Write where any mask is on."""
+    found, *others = masks
+    for mask in others:
+        found = builder.call(basic.either, found, mask, name="met")
+    return found
