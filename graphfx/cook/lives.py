@@ -142,6 +142,7 @@ class Lives:
     ) -> None:
         """Run a program, and again those who wait for another run, gathered with their like, until none waits."""
         places, given = np.arange(len(rows)), by_place
+        particles.carried += len(rows)
         for _ in range(MOST_ROUNDS):
             self.programs.run(made, particles, interval, rows[places], by_place=given)
             if kept and "knots" in made.program.stores:

@@ -21,7 +21,7 @@ from graphfx.graph.flat import FlatGraph
 from graphfx.graph.names import PICTURES
 from graphfx.graph.values import Literal
 from graphfx.motion.clock import Clock
-from graphfx.plan.make import EmitterPlan, Plan, make_plan
+from graphfx.plan.make import Plan, make_plan
 
 MEASURED = ("id", "lives", "position", "velocity")
 
@@ -90,17 +90,17 @@ class Trials:
                     begun += time.perf_counter() - paused
         made.seconds = time.perf_counter() - begun
         made.restless = sum(particles.unfinished for particles in simulation.particles.values())
-        made.evaluations = self._evaluations()
+        made.failed = sum(particles.failed for particles in simulation.particles.values())
+        moving = [particles for particles in simulation.particles.values() if particles.plan.own is not None]
+        made.evaluations = float(np.mean([self._evaluations(particles) for particles in moving])) if moving else 0.0
         return made
 
-    def _evaluations(self) -> float:
-        """Return the evaluations of each particle in each frame, the mean over the sources that move."""
-        moving = [emitter for emitter in self.plan.emitters.values() if emitter.main is not None]
-        return float(np.mean([self._planned(emitter) for emitter in moving])) if moving else 0.0
-
-    def _planned(self, emitter: EmitterPlan) -> float:
-        """Return how many steps the plan takes in a frame."""
-        return float(self.flat.time.substeps)
+    def _evaluations(self, particles: Particles) -> float:
+        """Return the evaluations of each particle of a source in each frame."""
+        scheme = particles.plan.motion.scheme
+        if not scheme.paced:
+            return float(self.flat.time.substeps * scheme.evaluations)
+        return scheme.evaluations * particles.turns / max(particles.carried, 1)
 
 
 def sample_of(flat: FlatGraph, most: int, last: int, threads: int = 1) -> Sample:

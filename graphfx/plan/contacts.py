@@ -102,8 +102,7 @@ class Contacts:
     ) -> Column | None:
         """Write one step that stops at the first contact; `step` becomes the time that was used. Return who met a surface.
 
-        `fade` writes what fades over a time; what is set at a hit comes after it. With `pacing` a step that is not
-        accurate enough is refused: the particle stays where it was, and the time used is 0.
+        `fade` writes what fades over a time; what is set at a hit comes after it. With `pacing` a step may be refused.
         """
         whole = moment_of(builder, step)
         if self.motion.method == "sims" or not self.surfaces:
@@ -114,8 +113,7 @@ class Contacts:
         starts = [None if is_barrier(surface) else distance_of(self.motion, surface, whole, state) for surface in self.surfaces]
         errors = self.motion.step(whole, state)
         if pacing is not None and errors is not None:
-            builder = pacing.judge(builder, state, first, step, errors)
-            whole = replace(whole, builder=builder)
+            whole = replace(whole, builder=(builder := pacing.judge(builder, state, first, step, errors)))
         search = ContactSearch(self.motion, self.barriers, moment_of, state, first, self.resolution)
         search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         candidates = [search.candidate(surface, whole, start) for surface, start in zip(self.surfaces, starts, strict=True)]
