@@ -34,7 +34,8 @@ AROUND = {
     "cook": set(ENGINE),
     "authoring": {"errors", "node", "graph", "output", "cook"},
     "contract": {"errors", "math", "node", "geometry", "program", "graph", "plan", "cook", "authoring"},
-    "cli": {*ENGINE, "cook", "authoring", "graphfx"},
+    "study": {"errors", "math", "node", "program", "graph", "motion", "plan", "output", "cook"},
+    "cli": {*ENGINE, "cook", "authoring", "study", "graphfx"},
 }
 ALLOWED: dict[str, set[str]] = {**ENGINE, **AROUND}
 """What each part may import, besides itself."""

@@ -42,7 +42,9 @@ class States:
 
 @dataclass
 class Trial:
-    """What came of a simulation: `states` by source and frame, and the `seconds` that it took, all preparation done before.
+    """What came of a simulation: `states` by source and frame, and the `seconds` of processor time that it took.
+
+    All preparation is done before, and taking the states is not counted.
 
     `evaluations` are force evaluations of each particle in each frame, on average; `restless` counts contacts that were
     given up.
@@ -80,15 +82,15 @@ class Trials:
         simulation, wanted, made = self.simulation(), set(frames), Trial()
         simulation.programs.prepare()
         made.states = {path: {} for path in simulation.particles}
-        begun = time.perf_counter()
+        begun = time.process_time()
         with np.errstate(all="ignore"):
             for frame in simulation.frames(max(wanted)):
                 if frame in wanted:
-                    paused = time.perf_counter()
+                    paused = time.process_time()
                     for path, particles in simulation.particles.items():
                         made.states[path][frame] = states_of(particles)
-                    begun += time.perf_counter() - paused
-        made.seconds = time.perf_counter() - begun
+                    begun += time.process_time() - paused
+        made.seconds = time.process_time() - begun
         made.restless = sum(particles.unfinished for particles in simulation.particles.values())
         made.failed = sum(particles.failed for particles in simulation.particles.values())
         moving = [particles for particles in simulation.particles.values() if particles.plan.own is not None]

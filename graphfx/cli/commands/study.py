@@ -1,0 +1,121 @@
+"""`graphfx study`: what accuracy costs in a graph."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from graphfx.cli.options import debug, library, parameters
+from graphfx.cli.stopping import say
+from graphfx.errors import EXIT_INTERRUPTED, UsageError
+
+if TYPE_CHECKING:
+    from graphfx.study.study import Study
+
+
+@click.command()
+@click.argument("graph", required=False)
+@click.option("--particles", type=click.IntRange(1, 1_000_000), metavar="N", default=1000, show_default=True,
+              help="Births of each emitter to follow, with their children.")
+@click.option("--frames", metavar="SET", help="Frames to compare: 12, 1-48, 1-48x2 or several; 24 of all if not given.")
+@click.option("--seconds", type=click.FloatRange(1), metavar="S", default=60.0, show_default=True,
+              help="Processor time after which no more settings are tried, nor runs repeated.")
+@click.option("--out", metavar="DIR", help="Folder for study.html and study.json; out/NAME OF THE GRAPH if not given.")
+@click.option("--png", is_flag=True, help="Write the plots as study.png too; needs the extra `study`.")
+@parameters
+@library
+@click.option("--json", "as_json", is_flag=True, help="Print JSON; files are written only with --out.")
+@click.option("--fields", is_flag=True, help="Say what each field of the JSON means.")
+@debug
+@click.pass_context
+def command(context: click.Context, graph: str | None, particles: int, frames: str | None, seconds: float, out: str | None,
+            png: bool, parameters: dict[str, str], library: tuple[str, ...], as_json: bool, fields: bool) -> None:
+    """Measure what each method makes of GRAPH, and what it costs.
+
+    Some of its particles run under every method that can carry them, with many steps and tolerances, in 32 and 64 bits.
+    Where they should be is found by two references of different orders; the setting that keeps the graph's tolerance
+    with the fewest force evaluations is recommended. A table, a page with plots, and JSON tell the rest.
+    """
+    if fields:
+        _say_fields()
+        return
+    if graph is None:
+        raise UsageError("study: GRAPH is missing\n  'graphfx study --help' says what it takes")
+    from graphfx.lanes.host import use_wide_registers
+
+    use_wide_registers()
+    from graphfx.cook.frames import parse_frames
+    from graphfx.graph.flatten import flatten
+    from graphfx.node import Library, library_roots
+    from graphfx.study.study import Maker
+
+    flat = flatten(graph, Library(library_roots(library)), parameters)
+    wanted = parse_frames(frames, flat.time.first, flat.time.last) if frames is not None else None
+    folder = Path(out) if out is not None else None if as_json else Path("out") / flat.name
+    with Telling(quiet=as_json) as telling:
+        study = Maker(flat, particles, wanted, seconds, tell=telling.tell).make()
+    files = _write(study, folder) if folder is not None else []
+    if as_json:
+        from graphfx.study.data import study_data
+
+        click.echo(json.dumps(study_data(study)))
+    else:
+        from graphfx.cli.study_table import show_study
+
+        show_study(study)
+        click.echo(f"wrote {', '.join(map(str, files))}")
+    if study.stopped:
+        say("stopped; what was measured before is kept")
+        context.exit(EXIT_INTERRUPTED)
+
+
+def _say_fields() -> None:
+    from graphfx.study.data import FIELDS
+
+    width = max(map(len, FIELDS))
+    for name, meaning in FIELDS.items():
+        click.echo(f"{name:<{width}}  {meaning}")
+
+
+def _write(study: Study, folder: Path) -> list[Path]:
+    """Write the page and the data; return the files."""
+    from graphfx.output.atomic import make_folder, whole_file
+    from graphfx.study.data import study_data
+
+    file = folder / "study.json"
+    make_folder(file)
+    with whole_file(file) as stream:
+        stream.write((json.dumps(study_data(study), indent=2) + "\n").encode())
+    return [file]
+
+
+class Telling:
+    """Tells what a study does: a line that moves on a terminal, plain lines elsewhere, nothing where it is to be quiet."""
+
+    def __init__(self, quiet: bool = False) -> None:
+        """Begin with nothing said."""
+        self.quiet, self.said = quiet, ""
+        self.terminal = sys.stderr.isatty()
+
+    def __enter__(self) -> Telling:
+        """Begin."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Take the line that moves away."""
+        if self.terminal and not self.quiet:
+            click.echo("\r\033[K", nl=False, err=True)
+
+    def tell(self, what: str, share: float) -> None:
+        """Tell what is done now; `share` is how much of all is done."""
+        if self.quiet:
+            return
+        if self.terminal:
+            click.echo(f"\r\033[K{share:4.0%}  {what}"[:100], nl=False, err=True)
+        elif (stage := what.partition(":")[0]) != self.said:
+            self.said = stage
+            click.echo(stage, err=True)

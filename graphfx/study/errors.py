@@ -1,0 +1,134 @@
+"""How far particles are from where they should be, and what a set of such distances comes to.
+
+    e = |P - P_true| [m],    RMS = sqrt(mean e^2)
+
+over all particles and frames that are compared. A particle that is no number, that is missing, or that is farther from
+its true place than all true places lie apart has failed: it counts as infinitely wrong in the median, in the 95th
+percentile and among those over the tolerance, and not at all in RMS and greatest error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from graphfx.cook.trial import States
+
+ODD, OTHER_ODD = 0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9
+
+StatesByFrame = Mapping[str, Mapping[int, States]]
+
+
+def keys_of(states: States) -> np.ndarray:
+    """Return a word of 64 bits for each particle and life: two are the same by chance once in 2^64."""
+    with np.errstate(over="ignore"):
+        words = states.ids * np.uint64(ODD)
+        return np.asarray((words ^ (words >> np.uint64(29))) + states.lives.astype(np.uint64) * np.uint64(OTHER_ODD))
+
+
+def matched(first: States, second: States) -> tuple[np.ndarray, np.ndarray]:
+    """Return the rows of the particles that both have, the same of each at the same place."""
+    if np.array_equal(first.ids, second.ids) and np.array_equal(first.lives, second.lives):
+        every = np.arange(len(first))
+        return every, every
+    _, one, other = np.intersect1d(keys_of(first), keys_of(second), assume_unique=True, return_indices=True)
+    return one, other
+
+
+def size(vectors: np.ndarray) -> np.ndarray:
+    """Return the lengths of vectors (n, 3), without overflow; infinite where one is no number."""
+    with np.errstate(invalid="ignore", over="ignore"):
+        found = np.hypot(np.hypot(vectors[:, 0], vectors[:, 1]), vectors[:, 2])
+    return np.where(np.isfinite(found), found, np.inf)
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Statistics of distances [m]; `compared` counts pairs of a particle and a frame, the rest counts particles."""
+
+    compared: int = 0
+    rms: float = 0.0
+    median: float = 0.0
+    p95: float = 0.0
+    greatest: float = 0.0
+    over: int = 0
+    """Pairs whose error is above the tolerance."""
+    not_finite: int = 0
+    missing: int = 0
+    escaped: int = 0
+
+    @property
+    def failures(self) -> int:
+        """Return how many particles failed, in whatever way."""
+        return self.not_finite + self.missing + self.escaped
+
+
+@dataclass
+class Distances:
+    """Distances as they are gathered, with the particles that failed in one way or another."""
+
+    found: list[np.ndarray] = field(default_factory=list)
+    not_finite: set[tuple[str, int]] = field(default_factory=set)
+    missing: set[tuple[str, int]] = field(default_factory=set)
+    escaped: set[tuple[str, int]] = field(default_factory=set)
+
+    def add(self, source: str, true: States, other: States, extent: float) -> None:
+        """Compare the particles of one source at one frame."""
+        rows, theirs = matched(true, other)
+        keys = keys_of(true)
+        lost = np.ones(len(true), bool)
+        lost[rows] = False
+        distance = np.full(len(true), np.inf)
+        distance[rows] = size(other.position[theirs] - true.position[rows])
+        wrong = np.zeros(len(true), bool)
+        wrong[rows] = ~np.isfinite(other.position[theirs]).all(axis=1)
+        away = ~lost & ~wrong & (distance > extent)
+        for failed, which in ((self.missing, lost), (self.not_finite, wrong), (self.escaped, away)):
+            failed.update((source, int(key)) for key in keys[which])
+        distance[lost | wrong | away] = np.inf
+        self.found.append(distance)
+
+    def errors(self, tolerance: float) -> Errors:
+        """Return the statistics."""
+        every = np.sort(np.concatenate(self.found)) if self.found else np.zeros(0)
+        if not len(every):
+            return Errors()
+        finite = every[np.isfinite(every)]
+        rms = root_mean_square(finite)
+        escaped = self.escaped - self.not_finite
+        missing = self.missing - self.not_finite - escaped
+        return Errors(
+            len(every), rms, quantile(every, 0.5), quantile(every, 0.95), float(finite[-1]) if len(finite) else np.inf,
+            int(np.count_nonzero(every > tolerance)), len(self.not_finite), len(missing), len(escaped),
+        )
+
+
+def root_mean_square(values: np.ndarray) -> float:
+    """Return sqrt(mean v^2), scaled so that nothing overflows; infinite of nothing."""
+    greatest = float(np.max(values)) if len(values) else np.inf
+    if greatest in (0.0, np.inf):
+        return greatest
+    return greatest * float(np.sqrt(np.mean((values / greatest) ** 2)))
+
+
+def quantile(ascending: np.ndarray, share: float) -> float:
+    """Return the least value that a share of ascending values does not exceed."""
+    return float(ascending[max(int(np.ceil(share * len(ascending))) - 1, 0)])
+
+
+def observed_order(work: list[float], errors: list[float], least: float, most: float = np.inf) -> float | None:
+    """Return p of error ~ work^-p by least squares over the points between `least` and `most`, None for fewer than two.
+
+    What has more work than the point of least error is left out, since there rounding rules; of more than four the four
+    with the most work count, which are nearest to the limit.
+    """
+    known = sorted((w, e) for w, e in zip(work, errors, strict=True) if np.isfinite(e) and w > 0)
+    best = min(known, key=lambda point: point[1], default=(0.0, 0.0))[0]
+    points = [(np.log(w), np.log(e)) for w, e in known if least < e < most and w <= best][-4:]
+    if len({x for x, _ in points}) < 2:
+        return None
+    x, y = np.array(points).T
+    x = x - x.mean()
+    return float(-(x @ y) / (x @ x))

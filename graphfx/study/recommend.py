@@ -1,0 +1,62 @@
+"""Recommend a setting: the one of fewest evaluations that keeps the tolerance, with the reason."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphfx.study.candidates import FAMILIES
+from graphfx.study.study import Result, Study, quartiles
+
+
+@dataclass(frozen=True)
+class Advice:
+    """A setting, or None where none can be recommended, and why."""
+
+    result: Result | None
+    reason: str
+
+
+def length(value: float) -> str:
+    """Return a length in metres, as one says an error: `2.1e-4 m`."""
+    if value == float("inf"):
+        return "infinite"
+    return f"{value:.1e} m".replace("e-0", "e-").replace("e+0", "e+") if value else "0 m"
+
+
+def advice(study: Study) -> Advice:
+    """Return what is recommended for a graph."""
+    truth, tolerance = study.truth, study.tolerance
+    if truth is None:
+        return Advice(None, "nothing can be recommended: the references are not made")
+    if truth.until is None:
+        return Advice(None, "nothing can be recommended: the references disagree from the first frame on, so nobody knows "
+                            "what is right; a greater time.tolerance, or a less chaotic graph, can be studied")
+    if not truth.particles:
+        return Advice(None, "nothing can be recommended: there is no particle at the frames that were compared")
+    ran = [each for each in study.results if not each.message]
+    good = sorted((each for each in ran if keeps(each, tolerance)), key=cost)
+    if not good:
+        nearest = min(ran, key=lambda each: (not each.sound, each.errors.p95), default=None)
+        known = f"; the nearest is {nearest.candidate.name} with {length(nearest.errors.p95)}" if nearest else ""
+        return Advice(None, f"no setting keeps 95 % of the errors within {length(tolerance)} and loses no particle{known}")
+    best = good[0]
+    cheaper = [each for each in ran if cost(each)[:1] < cost(best)[:1] and each.candidate.family == best.candidate.family
+               and each.candidate.precision == best.candidate.precision]
+    reason = (f"95 % of its errors are below {length(best.errors.p95)}, within the tolerance of {length(tolerance)}, for "
+              f"{best.evaluations:.3g} evaluations of each particle in a frame: the fewest of the {len(good)} settings that "
+              f"keep it, of {len(ran)} tried")
+    if cheaper:
+        next_ = max(cheaper, key=cost)
+        reason += f"; with {next_.candidate.setting} they would be {length(next_.errors.p95)}"
+    return Advice(best, reason)
+
+
+def keeps(result: Result, tolerance: float) -> bool:
+    """Return whether a setting keeps the tolerance, and loses no particle."""
+    return result.sound and result.errors.p95 <= tolerance
+
+
+def cost(result: Result) -> tuple[float, int, int, float]:
+    """Return what settings are ordered by: evaluations first, then bits, then the order of the table, then run time."""
+    family = result.candidate.family
+    return result.evaluations, result.candidate.precision, FAMILIES.index(family), quartiles(result.seconds)[1]

@@ -1,0 +1,211 @@
+"""Study a graph: what each method makes of it, and at what cost, against what two references agree on.
+
+All settings run over the same sample of particles, in one process and on one thread. The cheapest setting of each family
+goes first, so that when time runs out the dearest are left out. Then all run again, in turn, as often as time allows: what
+disturbs the machine disturbs all of them alike.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from graphfx.cook.sample import Sample
+from graphfx.cook.trial import Trials, sample_of, spread_frames
+from graphfx.errors import GraphfxError
+from graphfx.graph.flat import FlatGraph
+from graphfx.study.candidates import FAMILIES, PRECISIONS, Candidate, Family, candidates
+from graphfx.study.errors import Errors, observed_order
+from graphfx.study.reference import Truth, references, truth_of
+
+PARTICLES, FRAMES, SECONDS = 1000, 24, 60.0
+"""What a study takes, unless told: particles of each source, frames compared, seconds of processor time."""
+MOST_REPEATS = 5
+BASELINE = "sims"
+"""The family to whose run of one step, of the same precision and round, run times are told as ratios."""
+
+
+@dataclass
+class Result:
+    """What one setting came to. `message` says why it could not run; `seconds` [s] are those of each round."""
+
+    candidate: Candidate
+    methods: tuple[str, ...] = ()
+    errors: Errors = field(default_factory=Errors)
+    evaluations: float = 0.0
+    seconds: list[float] = field(default_factory=list)
+    capped: int = 0
+    restless: int = 0
+    message: str = ""
+
+    @property
+    def sound(self) -> bool:
+        """Return whether it ran, and lost no particle."""
+        return not self.message and self.errors.failures == 0 and self.capped == 0
+
+
+@dataclass
+class Study:
+    """All that was found. `left_out` says what was not tried, and why; `orders` are by family and precision."""
+
+    flat: FlatGraph
+    frames: list[int]
+    particles: dict[str, int] = field(default_factory=dict)
+    truth: Truth | None = None
+    results: list[Result] = field(default_factory=list)
+    own: Result | None = None
+    """The graph as it is."""
+    left_out: list[tuple[str, str]] = field(default_factory=list)
+    stopped: bool = False
+
+    @property
+    def tolerance(self) -> float:
+        """Return the graph's tolerance [m]."""
+        return self.flat.time.tolerance
+
+    def of(self, family: str, precision: int) -> list[Result]:
+        """Return the results of a family that ran, the cheaper first."""
+        return [each for each in self.results if (each.candidate.family.name, each.candidate.precision) == (family, precision)
+                and not each.message]
+
+    def order(self, family: str, precision: int) -> float | None:
+        """Return the order that the errors of a family show: against steps, or against evaluations where it chooses its steps."""
+        if self.truth is None:
+            return None
+        found = self.of(family, precision)
+        work, errors = [each.evaluations for each in found], [each.errors.p95 for each in found]
+        return observed_order(work, errors, 3 * self.truth.difference.p95, self.truth.extent / 10)
+
+    def ratios(self, result: Result) -> list[float]:
+        """Return the run times of a setting over those of `BASELINE` of one step, in the same rounds."""
+        for base in self.of(BASELINE, result.candidate.precision):
+            if base.candidate.steps == 1:
+                return [one / other for one, other in zip(result.seconds, base.seconds, strict=False)]
+        return []
+
+
+@dataclass
+class Maker:
+    """Makes a study. `tell` is given what is done now, and how much of all, from 0 to 1."""
+
+    flat: FlatGraph
+    most: int = PARTICLES
+    frames: Sequence[int] | None = None
+    seconds: float = SECONDS
+    precisions: tuple[int, ...] = PRECISIONS
+    tell: Callable[[str, float], None] = lambda what, share: None
+    trials: list[tuple[Result, Trials]] = field(default_factory=list)
+
+    def make(self) -> Study:
+        """Study the graph; what is stopped by Ctrl-C keeps what is done."""
+        time_ = self.flat.time
+        study = Study(self.flat, spread_frames(self.frames or range(time_.first, time_.last + 1), FRAMES))
+        try:
+            self._measure(study)
+        except KeyboardInterrupt:
+            study.stopped = True
+            study.left_out.append(("the rest", "it was stopped"))
+        return study
+
+    def _measure(self, study: Study) -> None:
+        flat, begun = self.flat, time.process_time()
+        self.tell("choosing particles", 0.0)
+        sample = sample_of(flat, self.most, max(study.frames))
+        study.particles = {path: len(chosen) for path, chosen in sample.ordinals.items()}
+        both = references(flat, sample, study.frames, lambda name: self.tell(f"reference: {name}", 0.0))
+        study.truth = truth_of(*both, study.frames, flat.time.tolerance)
+        if study.truth.until is None:
+            study.left_out.append(("all settings", "the references disagree from the first frame on"))
+            return
+        study.frames = [frame for frame in study.frames if frame <= study.truth.until]
+        own = Candidate(Family("the graph as it is", flat.time.method), flat.time.precision, flat.time.substeps)
+        study.own = self._tried(study, own, flat, sample)
+        try:
+            for candidate, share in self._affordable(study, begun):
+                self.tell(candidate.name, share)
+                self._try(study, candidate, sample)
+            self._repeat(study, begun)
+        finally:
+            study.results.sort(key=lambda each: (each.candidate.precision, FAMILIES.index(each.candidate.family)))
+
+    def _affordable(self, study: Study, begun: float) -> Iterator[tuple[Candidate, float]]:
+        """Yield the settings, the cheapest of each family first, as long as there is time; then say what was left out."""
+        waiting = by_rank(list(candidates(self.precisions)))
+        refused: set[tuple[Family, int]] = set()
+        late: dict[str, list[str]] = {}
+        for number, candidate in enumerate(waiting):
+            if (candidate.family, candidate.precision) in refused:
+                continue
+            if time.process_time() - begun > self.seconds:
+                late.setdefault(candidate.family.name, []).append(f"{candidate.setting} ({candidate.precision} bits)")
+                continue
+            before = len(study.left_out), len(study.results)
+            yield candidate, number / len(waiting)
+            unplanned = len(study.results) > before[1] and study.results[-1].message
+            if len(study.left_out) > before[0] or unplanned:
+                refused.add((candidate.family, candidate.precision))
+        for family, names in late.items():
+            study.left_out.append((f"{family}, {', '.join(names)}", "there was no time left; more of it: --seconds"))
+
+    def _try(self, study: Study, candidate: Candidate, sample: Sample) -> None:
+        """Run a setting once and keep what it came to, or why it did not run."""
+        result = self._tried(study, candidate, candidate.flat(self.flat), sample)
+        if result.message or candidate.family.method in result.methods:
+            study.results.append(result)
+            return
+        runs = " and ".join(result.methods)
+        study.left_out.append((f"{candidate.family.name}, {candidate.precision} bits", f"in this graph it is the same as {runs}"))
+
+    def _tried(self, study: Study, candidate: Candidate, flat: FlatGraph, sample: Sample) -> Result:
+        """Run a graph once and return what it came to; not where the plan takes another method than the setting's."""
+        result = Result(candidate)
+        assert study.truth is not None
+        try:
+            trials = Trials(flat, sample)
+            result.methods = tuple(sorted({emitter.method for emitter in trials.plan.emitters.values()}))
+            if candidate.family in FAMILIES and candidate.family.method not in result.methods:
+                return result
+            trial = trials.run(study.frames)
+        except GraphfxError as error:
+            result.message = "; ".join(problem.message for problem in error.problems)
+            return result
+        result.errors = study.truth.compare(trial.states, study.tolerance)
+        result.evaluations, result.capped, result.restless = trial.evaluations, trial.failed, trial.restless
+        result.seconds.append(trial.seconds)
+        self.trials.append((result, trials))
+        return result
+
+    def _repeat(self, study: Study, begun: float) -> None:
+        """Run all settings again, in turn, for their run times: whole rounds, as long as there is time for another."""
+        took = sum(result.seconds[0] for result, _ in self.trials)
+        for number in range(2, MOST_REPEATS + 1):
+            if time.process_time() - begun + took > self.seconds:
+                return
+            found = []
+            for result, trials in self.trials:
+                self.tell(f"run times, round {number}: {result.candidate.name}", number / MOST_REPEATS)
+                found.append(trials.run(study.frames).seconds)
+            for (result, _), seconds in zip(self.trials, found, strict=True):
+                result.seconds.append(seconds)
+
+
+def by_rank(all_of_them: list[Candidate]) -> list[Candidate]:
+    """Return settings with the first of each family and precision first, then the second ones, and so on."""
+    ranks: dict[tuple[str, int], int] = {}
+    ranked = []
+    for candidate in all_of_them:
+        key = candidate.family.name, candidate.precision
+        ranked.append((ranks.setdefault(key, 0), candidate))
+        ranks[key] += 1
+    return [candidate for _, candidate in sorted(ranked, key=lambda each: each[0])]
+
+
+def quartiles(values: Sequence[float]) -> tuple[float, float, float]:
+    """Return the first quartile, the median and the third quartile of some numbers; nothing measured is nan."""
+    if not values:
+        return float("nan"), float("nan"), float("nan")
+    low, middle, high = np.quantile(values, [0.25, 0.5, 0.75])
+    return float(low), float(middle), float(high)
