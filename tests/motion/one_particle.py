@@ -1,4 +1,4 @@
-"""The path of one particle under operators, by the block machine in 64 bits."""
+"""The path of one particle under operators, by the block machine, in 64 bits unless told."""
 
 from __future__ import annotations
 
@@ -18,7 +18,8 @@ def effect_of(
     ops: list[Any], start: Any, velocity: Any = (0, 0, 0), fps: float = 24, frames: int = 24, method: str = "auto", **more: Any
 ) -> Effect:
     """Return the effect of one particle that is born at `start` as the simulation begins."""
-    time = {"fps": fps, "frames": [0, frames], "precision": 64, "method": method, "substeps": more.pop("substeps", 1)}
+    time = {"fps": fps, "frames": [0, frames], "precision": 64, "method": method}
+    time |= {name: more.pop(name) for name in ("precision", "substeps", "preroll") if name in more}
     emit = more.pop("emit", {})
     sets = {"position": list(start), "velocity": list(velocity), **more}
     document = {

@@ -26,36 +26,6 @@ def step(name: str, dt: float, velocity=V, kind=np.float64, **given):
         return tuple(map(array, node.function(**values)))
 
 
-@pytest.mark.parametrize("threshold", [0.0, 1e-6, 0.5, 12.9, 13.0, 20.0])
-@pytest.mark.parametrize("damping", [0.5, 5.0, 50.0, 500.0])
-def test_damping_stops_at_the_threshold(damping, threshold):
-    """V' = V max(exp(-d h), min(1, thr / |V|)) and the integral of it to 1e-12; never below the threshold."""
-    for dt in (1e-3, H, 0.7, 10.0):
-        way, velocity = step("damp", dt, damping=damping, threshold=threshold)
-        share = max(np.exp(-damping * dt), min(1, threshold / SPEED))
-        np.testing.assert_allclose(velocity, V * share, rtol=1e-12)
-        crossing = 0.0 if threshold >= SPEED else np.inf if threshold == 0 else np.log(SPEED / threshold) / damping
-        slow = min(crossing, dt)
-        integral = -np.expm1(-damping * slow) / damping
-        if dt > crossing:
-            integral += min(1, threshold / SPEED) * (dt - crossing)
-        np.testing.assert_allclose(way, V * integral, rtol=1e-12)
-        assert np.linalg.norm(velocity) >= min(threshold, SPEED) * (1 - 4e-16)
-
-
-@pytest.mark.parametrize("threshold", [1.0, 13.0, 26.0, 1e3, np.inf])
-@pytest.mark.parametrize("rate", [0.1, 2.0, 30.0])
-def test_undamping_stops_at_the_threshold(rate, threshold):
-    """V' = V min(exp(r h), max(1, thr / |V|)) and the integral of it to 1e-12; those faster are left alone."""
-    for dt in (1e-3, H, 0.7):
-        way, velocity = step("undamp", dt, rate=rate, threshold=threshold)
-        most = max(1, threshold / SPEED)
-        np.testing.assert_allclose(velocity, V * min(np.exp(rate * dt), most), rtol=1e-12)
-        gaining = min(np.log(most) / rate, dt)
-        integral = np.expm1(rate * gaining) / rate + (most * (dt - gaining) if gaining < dt else 0)
-        np.testing.assert_allclose(way, V * integral, rtol=1e-12)
-
-
 @pytest.mark.parametrize("strength", [1e-12, 0.1, 3.0, 1e6])
 def test_quadratic_drag(strength):
     """V / (1 + k |V| h) and V log(1 + k |V| h) / (k |V|), to 1e-12."""

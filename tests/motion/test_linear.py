@@ -67,44 +67,6 @@ def test_free_fall(dt):
     close(velocity, array(V) + array(G) * dt, 1e-15)
 
 
-@pytest.mark.parametrize("product", [0.01, 0.1, 1.0, 10.0, 100.0])
-def test_damping(product):
-    """V e^-dh, P + V (1 - e^-dh) / d: to 1e-12 for d h from .01 to 100; far on, the stop distance is V / d."""
-    h = 1 / 24
-    d = product / h
-    position, velocity = flow(damped_fall, vector(0, 0, 0), V, vector(0, 0, 0), d, h)
-    close(velocity, array(V) * np.exp(-product), 1e-12)
-    close(position, array(V) * (-np.expm1(-product) / d), 1e-12)
-    close(flow(damped_fall, vector(0, 0, 0), V, vector(0, 0, 0), d, 1e6)[0], array(V) / d, 1e-12)
-
-
-@pytest.mark.parametrize("product", [0.01, 1.0, 100.0])
-def test_terminal_velocity(product):
-    """Falling under damping ends at g / d, whatever the step."""
-    d = product * 24
-    velocity = V
-    position = P
-    for _ in range(int(60 / min(product, 60)) + 1):
-        position, velocity = damped_fall.body(position, velocity, G, np.float64(d), np.float64(1 / 24))
-    for _ in range(4000 if product < 1 else 0):
-        position, velocity = damped_fall.body(position, velocity, G, np.float64(d), np.float64(1 / 24))
-    close(array(velocity), array(G) / d, 1e-12)
-
-
-@pytest.mark.parametrize("angle", [0.01, np.pi / 4, np.pi, 100.0])
-def test_helix_keeps_radius_and_pitch(angle):
-    """A turn of the velocity carries a particle about an axis at radius |V across| / w, at a steady pace along it."""
-    w, h = 5.0, angle / 5.0
-    start, speed, along = vector(1, 0, 2), 3.0, 0.7
-    position, velocity = start, vector(0, along, -speed)  # about +y from a centre at x = 1 - r
-    centre, radius = 1 - speed / w, speed / w
-    for k in range(1, 50):
-        position, velocity = spin(position, velocity, vector(0, w, 0), np.float64(h))
-        assert abs(np.hypot(position.x - centre, position.z - 2) - radius) <= 1e-12 * radius * max(angle, 1)
-        assert abs(position.y - along * h * k) <= 1e-12 * along * h * k
-        assert abs(float(length(velocity)) - np.hypot(speed, along)) <= 1e-13 * speed * k
-
-
 def test_velocity_along_the_axis_is_untouched():
     """A spiral does nothing to a velocity along its axis."""
     position, velocity = flow(spin, P, W * 2.0, W, 0.7)
@@ -125,18 +87,6 @@ def test_quarter_turn_is_right_handed():
     """About +y, +z turns to +x."""
     velocity = array(turn(vector(0, 0, 1), vector(0, 2, 0), np.float64(np.pi / 4)))
     np.testing.assert_allclose(velocity, [1, 0, 0], atol=1e-15)
-
-
-@pytest.mark.parametrize("rate", [0.83 * 24, 0.01, 300.0])
-def test_drift_across_gravity_and_axis(rate):
-    """Gravity across the axis makes a steady drift w x g / w^2 (E x B): exact to 1e-11 after 240 steps."""
-    w, g = vector(0, rate, 0), vector(0, 0, -9.81)
-    drift = np.cross(array(w), array(g)) / rate**2
-    position, velocity = vector(0, 0, 0), vector(*drift)
-    for _ in range(240):
-        position, velocity = spiral_fall.body(position, velocity, g, np.float64(0.0), w, np.float64(1 / 24))
-    close(array(position), drift * 10, 1e-11)
-    close(array(velocity), drift, 1e-11)
 
 
 FORMS = {
