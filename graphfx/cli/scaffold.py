@@ -60,12 +60,10 @@ PATTERNS = {
         "position=Vec3(0.0, 3.0, 0.0), height=1.0", "(2.0, (0.0, 1.0, 0.0))",
         "At a height of 3 m the ground at 1 m is 2 m below."),
     "noise": Pattern(
-        "A = strength (2 u - 1, 2 v - 1, 2 w - 1)", "Vec3", '@operator.noise(writes="velocity", neutral="strength == 0")',
-        ("draw: tuple", 'strength: float = param(1.0, unit="m/s^2", min=0, doc="Largest acceleration along each axis.")'),
-        "Vec3", "the acceleration for a time cell",
-        ("return Vec3(draw[0] * 2.0 - 1.0, draw[1] * 2.0 - 1.0, draw[2] * 2.0 - 1.0) * strength",),
-        "draw=(0.0, 0.5, 0.75, 0.0), strength=2.0", "(-2.0, 0.0, 1.0)",
-        "Draws of 0, a half and three quarters are -1, 0 and a half of the strength."),
+        "A = strength (n_x, 0, n_z)", "Vec3", '@operator.noise(writes="velocity", neutral="strength == 0")',
+        ("noise: Vec3", 'strength: float = param(1.0, unit="m/s^2", min=0, doc="Largest acceleration along the ground.")'),
+        "Vec3", "the acceleration, proportional to a random vector n", ("return Vec3(noise.x, 0.0, noise.z) * strength",),
+        "noise=Vec3(0.5, 0.25, -0.5), strength=2.0", "(1.0, 0.0, -1.0)", "What is random pushes along the ground alone."),
     "value": Pattern(
         "x = low + (high - low) (u + v) / 2", "", "@value",
         ("draw: tuple", 'low: float = param(0.0, doc="Least number.")', 'high: float = param(1.0, doc="Greatest number.")'),

@@ -37,6 +37,17 @@ def is_linear(subject: Subject) -> None:
         _close(parts[0] + parts[1], parts[2] + parts[3], f"it is not linear in {' and '.join(state)}", one)
 
 
+def is_proportional(subject: Subject) -> None:
+    """What a noise operator gives is proportional to its random vector: f(a + b) = f(a) + f(b), and f(0) = 0."""
+    for one, other in pairs(_rows(subject)):
+        total = _sum(one["noise"], other["noise"])
+        whole, first, second, none = (
+            plainly(subject.node_type, one, noise=vector)[0] for vector in (total, one["noise"], other["noise"], (0.0, 0.0, 0.0))
+        )
+        _close(first + second, whole, "it is not proportional to noise", one)
+        _close(none, np.zeros(3), "it is not 0 without noise", one)
+
+
 def composes(subject: Subject) -> None:
     """A flow is exact: two half steps are one whole step, and a step of no time changes nothing."""
     node_type = subject.node_type
@@ -128,9 +139,14 @@ def _close(one: np.ndarray, other: np.ndarray, complaint: str, row: Row, close: 
     assert np.all(np.abs(one - other) <= close * size), f"{complaint}: {one} against {other} with {shown(row)}"
 
 
-BY_ROLE = {"linear": (is_linear,), "flow": (composes, has_its_linear_form), "surface": (has_a_surface, stops_a_way)}
+BY_ROLE = {
+    "linear": (is_linear,),
+    "noise": (is_proportional,),
+    "flow": (composes, has_its_linear_form),
+    "surface": (has_a_surface, stops_a_way),
+}
 """The claims of each role."""
-ALL = (is_linear, composes, has_its_linear_form, has_a_surface, stops_a_way, does_nothing_when_neutral)
+ALL = (is_linear, is_proportional, composes, has_its_linear_form, has_a_surface, stops_a_way, does_nothing_when_neutral)
 
 
 def applies(subject: Subject, claim: Any) -> bool:

@@ -97,7 +97,7 @@ class Programs:
 
         values: dict[int, Any] = {}
         for name, uniform in made.times.items():
-            if isinstance(name, tuple) and name[0].startswith("cell"):
+            if isinstance(name, tuple) and len(name) == 3:
                 kind, k, number = name
                 values[id(uniform)] = cell_time(kind, interval.start, k * length, length, number, made.cells)
             else:

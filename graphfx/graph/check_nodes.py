@@ -264,7 +264,7 @@ def _draws(op: Entry) -> bool:
         if isinstance(tree, Random) or (isinstance(tree, Node) and tree.node_type and "draw" in tree.node_type.reserved):
             return True
         waiting += children(tree)
-    return op.group is not None or bool(op.node_type and "draw" in op.node_type.reserved)
+    return op.group is not None or bool(op.node_type and op.node_type.draws)
 
 
 def why_uniform(entry: Entry, parameter: Parameter) -> str:

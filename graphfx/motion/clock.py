@@ -17,6 +17,8 @@ CELL_RATE = 24
 """Cells of held noise in a second: a draw of noise holds for 1/24 s, whatever the frames and steps are."""
 ON_THE_EDGE = 1e-6
 """A step that begins so little before a cell's end [cells] begins in the next."""
+GRID = 16 * 25 * 4096
+"""Places in a cell at which Brownian noise is found; the ends of most steps are such places, whole numbers from 0 to GRID."""
 
 
 @dataclass(frozen=True)
@@ -86,17 +88,26 @@ def most_cells(fps: float, preroll: float, substeps: int) -> int:
 
 
 def cell_time(kind: str, start: float, begin: float, length: float, number: int, cells: int) -> float:
-    """Return the "cell" number, "cell begin" or "cell end" [s from `start`] of the `number`-th of `cells` that a step may meet.
+    """Return a time of the `number`-th of `cells` cells that a step may meet [s from `start`], or the "cell" number.
 
-    `start` is the frame's [s]; the step begins at `start + begin`. The first cell begins, and the last ends, beyond the
-    step. Numbers count modulo 2^32. A step that meets one cell alone is in that of its middle.
+    `start` is the frame's [s]; the step begins at `start + begin`. By `kind`: "cell begin" and "cell end" are where cells
+    part the step, so the first cell begins, and the last ends, beyond it; "cell start" is where the cell really begins.
+    "piece begin" and "piece end" are the ends of what of the step lies in the cell, "first place" and "last place" those
+    in the cell, from 0 to GRID. Numbers count modulo 2^32. A step that meets one cell alone is in that of its middle, as
+    is cell -1.
     """
-    if cells == 1:
-        cell = math.floor((start + begin + length / 2) * CELL_RATE)
-    else:
-        cell = math.floor((start + begin) * CELL_RATE + ON_THE_EDGE) + number
+    middle = math.floor((start + begin + length / 2) * CELL_RATE)
+    cell = middle if cells == 1 or number < 0 else math.floor((start + begin) * CELL_RATE + ON_THE_EDGE) + number
     if kind == "cell":
         return cell & 0xFFFFFFFF
     if kind == "cell begin":
         return cell / CELL_RATE - start if number > 0 else -math.inf
-    return (cell + 1) / CELL_RATE - start if number < cells - 1 else math.inf
+    if kind == "cell end":
+        return (cell + 1) / CELL_RATE - start if number < cells - 1 else math.inf
+    if kind == "cell start":
+        return cell / CELL_RATE - start
+    time = begin if kind in ("piece begin", "first place") else begin + length
+    inside = min(max((start + time) * CELL_RATE - cell, 0.0), 1.0)
+    if kind.startswith("piece"):
+        return time if 0.0 < inside < 1.0 else min((cell + inside) / CELL_RATE - start, begin + length)
+    return float(round(inside * GRID))

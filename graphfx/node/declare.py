@@ -17,7 +17,7 @@ from graphfx.node.signature import (
     result_types,
 )
 from graphfx.node.source import line_of_argument, stray_name, wrong_return
-from graphfx.node.types import ATTRIBUTES, DERIVED_ATTRIBUTES, RESERVED, WAY, NodeType, Parameter
+from graphfx.node.types import ATTRIBUTES, DERIVED_ATTRIBUTES, NOISE, RESERVED, WAY, NodeType, Parameter
 
 RESPONSE = (
     Parameter("resilience", "float", 0.5, "", 0.0, 1.0, (), "Share of the speed across the surface that a bounce gives back."),
@@ -28,6 +28,11 @@ RESPONSE = (
     Parameter("response", "string", "bounce", "", None, None, ("bounce", "stick", "slide", "die"), "What it does at a hit."),
 )
 """Parameters that every surface has besides its function's: how a particle answers to the contact."""
+
+PROCESS = (
+    Parameter("process", "string", "hold", "", None, None, ("hold", "brownian"), "New each 1/24 s, or Brownian motion."),
+)
+"""Parameter that every noise has besides its function's, if that takes the engine's random vector."""
 
 TRANSFORM = (
     Parameter("translate", "vec3", (0.0, 0.0, 0.0), "m", None, None, (), "Moves the mesh, after it was scaled and rotated."),
@@ -59,7 +64,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
         raise fail(f"a function of particles cannot use '{stray}'; it has graphfx.math, and random numbers come as the "
                    "argument `draw`")
     signature = inspect.signature(function)
-    known = (*RESERVED, *WAY) if role == "surface" else RESERVED
+    known = (*RESERVED, *{"surface": WAY, "noise": NOISE}.get(role, ()))
     reads: list[str] = []
     reserved: list[str] = []
     parameters: dict[str, Parameter] = {}
@@ -78,12 +83,18 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
             raise fail(message, line=line)
     if role == "value" and (len(result) > 1 or results):
         check_result_names(results, result, fail)
-    if role == "surface":
-        parameters |= {parameter.name: parameter for parameter in RESPONSE}
-    elif role == "geometry":
-        parameters |= {parameter.name: parameter for parameter in TRANSFORM}
-    return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters,
+    if {"draw", *NOISE} <= {*reserved}:
+        raise fail("it takes `draw` and `noise`, which are made of the same numbers; take one of them", at="draw")
+    given = {parameter.name: parameter for parameter in _given_to(role, reserved)}
+    for both in given.keys() & parameters.keys():
+        raise fail(f"parameter '{both}' is one that every {role} has besides; choose another name", at=both)
+    return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters | given,
                     result, writes, neutral, exact_if, branches, language, doc, location, linear, tuple(results))
+
+
+def _given_to(role: str, reserved: list[str]) -> tuple[Parameter, ...]:
+    """Return the parameters that nodes of a role have besides their functions'."""
+    return {"surface": RESPONSE, "geometry": TRANSFORM}.get(role, PROCESS if "noise" in reserved else ())
 
 
 _OPTIONS = ("writes", "neutral", "exact_if", "linear", "branches", "results")
@@ -129,7 +140,11 @@ class operator:
     and `end` instead, a particle's way in a step, and gives (met, a point, a unit normal to the side of the start): the
     plane at which it stops."""
     noise = staticmethod(_decorator("operators", "noise"))
-    """An acceleration that holds for a time cell of 1/24 s; an applied velocity, where it writes the position."""
+    """An acceleration, random for each particle; an applied velocity, where it writes the position. It is proportional to
+    `noise`, a random vector, and its parameter `process` says which. For "hold" that is uniform in the unit ball, new each
+    1/24 s. For "brownian" it is white noise, held over a step h: an increment of a Wiener process, normal with variance h
+    in each component, over h; so a velocity strength * noise has variance strength^2 t after a time t, and a strength is
+    in m/s^1.5. A function that takes `draw`, four random numbers new each 1/24 s, is held only."""
     pairs = staticmethod(_decorator("operators", "pairs", writes="velocity"))
     """The effect of one neighbour."""
 

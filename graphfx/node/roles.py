@@ -10,7 +10,7 @@ ROLES = {
     "velocity": "integrates it as an applied velocity, besides the particle's own",
     "surface": "finds the instant of each contact, and answers it there",
     "geometry": "makes the mesh before the cook, and moves it where it stands at each step",
-    "noise": "draws it for each particle and each 1/24 s, in which it holds, so that steps and frames change nothing",
+    "noise": "draws it for each particle: held for each 1/24 s, or Brownian; steps and frames change nothing of what is drawn",
     "pairs": "sums it over the neighbours that are near",
     "value": "finds it for the parameter or attribute that it is given to",
     "selector": "lets through the particles for which it is true: in a stream, or as `only` of an operator",

@@ -17,6 +17,8 @@ OTHER_TYPES = ("string", "path", "interval", "list", "selector", "surface", "mes
 
 RESERVED = ("dt", "time", "frame", "id", "draw")
 """Arguments that the engine gives: step [s], time [s], frame number, particle id, and four uniform random numbers."""
+NOISE = ("noise",)
+"""What it gives to noise operators besides: a random vector, to which the result is proportional."""
 WAY = ("start", "end")
 """Arguments that it gives to surfaces besides: where a particle is at the start and at the end of a step [m]."""
 
@@ -133,11 +135,16 @@ class NodeType:
             return self.parameters[name].type
         if name in ("draw", "id"):
             return name
-        if name in WAY and name in self.reserved:
+        if name in (*WAY, *NOISE) and name in self.reserved:
             return "vec3"
         if name in self.reserved:
             return "float"
         return (ATTRIBUTES | DERIVED_ATTRIBUTES)[name].type
+
+    @property
+    def draws(self) -> bool:
+        """Return whether its function is handed random numbers."""
+        return bool({"draw", *NOISE} & {*self.reserved})
 
     @property
     def parameter_line(self) -> str:

@@ -15,7 +15,7 @@ class FrameProgram:
     """A program with what each run must find: `steps` are values found once, each with the time of the frame at which
     they are found, and `times` the uniforms that hold times of the frame. Times have names: "length" and "half" of a
     step, ("start", k), ("middle", k), ("end", k), "opening", "frame start", "frame end", and ("cell", k, p) with the
-    like for the p-th of `cells` cells of held noise in a step."""
+    like for the p-th of `cells` cells of noise in a step."""
 
     program: Program
     steps: list[tuple[Any, StepValues]] = field(default_factory=list)

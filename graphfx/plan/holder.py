@@ -75,6 +75,11 @@ def moment_of(node: FlatNode) -> str:
     return node.when or MOMENTS.get(node.node_type.role, ("step",))[0]
 
 
+def is_brownian(node: FlatNode) -> bool:
+    """Return whether an operator is noise that is a Wiener process."""
+    return node.node_type.role == "noise" and getattr(node.arguments.get("process"), "value", "") == "brownian"
+
+
 @dataclass(eq=False)
 class Holder:
     """`maker` is an `emit` or a `spawn`, `adders` the spawns whose children join, `operators` what acts on the

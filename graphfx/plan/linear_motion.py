@@ -6,11 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphfx.math.random import key_of
 from graphfx.motion import basic, linear, spring
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import Mover
 from graphfx.plan.values import folded_call
+from graphfx.plan.white_noise import WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
 
 X_AXIS, Y_AXIS = Uniform("(1, 0, 0)", "vec3", (1.0, 0.0, 0.0)), Uniform("(0, 1, 0)", "vec3", (0.0, 1.0, 0.0))
@@ -35,16 +35,17 @@ class Coefficients:
 
 @dataclass
 class LinearMotion:
-    """The linear operators of one emitter, and its held noise, which is constant within a cell.
+    """The linear operators of one emitter, and its noise, which is constant within a cell and a step.
 
     `arguments` gives the operands of an operator's function, `conditions` the builder under those of an operator;
-    `changing` are the attributes that are set within a frame.
+    `changing` are the attributes that are set within a frame; `noise` writes random vectors.
     """
 
     movers: list[Mover]
     arguments: Arguments
     conditions: Callable[[Mover, Moment], Builder]
-    changing: frozenset[str] = frozenset()
+    changing: frozenset[str]
+    noise: WhiteNoise
     _cached: dict[tuple[int, int], Terms] = field(default_factory=dict)
 
     def prepare(self, moment: Moment, state: State) -> None:
@@ -84,11 +85,10 @@ class LinearMotion:
         return found
 
     def _noise(self, mover: Mover, moment: Moment, state: State, cell: int) -> Terms:
-        """Write the draw of a cell and what the operator makes of it."""
-        scope = moment.writer.scope
-        key = key_of(scope.seed, scope.emitter, mover.node.seed)
-        draw = moment.builder.draw(key, scope.identity(), scope.number("lives"), moment.cell_time("cell", cell))
-        given = self.arguments(mover, moment, state, {"draw": draw})
+        """Write what is random in a cell and what the operator makes of it."""
+        random = {"draw": self.noise.draw, "noise": self.noise.vector}
+        handed = {name: write(mover, moment, cell) for name, write in random.items() if name in mover.arguments}
+        given = self.arguments(mover, moment, state, handed)
         made = moment.builder.call(mover.function, *given, name=mover.node.node_type.name)
         return {"constant" if mover.writes_velocity else "applied": made}
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Literal, Value
 from graphfx.node import INFINITY
-from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, moment_of, names_in
+from graphfx.plan.holder import SETTING_ROLES, Holder, draws_in, is_brownian, moment_of, names_in
 from graphfx.plan.rates import lane_type
 from graphfx.plan.shutter import Exposure
 
@@ -153,6 +153,8 @@ def _add_hidden(found: Attributes, reading: Reading, exposure: Exposure) -> None
         found.constants["life"] = life
     if mortal or {"age", "normalized_age"} & readers.keys():
         found.store("birth", "time", "for age and death")
+    elif any(map(is_brownian, holder.operators)):
+        found.store("birth", "time", "since when Brownian noise moves it")
     elif exposure.deep:
         found.store("birth", "time", "since when it is seen, for motion blur")
     needs_id = _needs_id(reading)
@@ -174,8 +176,7 @@ def _needs_id(reading: Reading) -> str:
     """Return why particles need their ids, or '' where they do not."""
     holder = reading.holder
     for node in holder.operators:
-        noise = "draw" in node.node_type.reserved or "id" in node.node_type.reserved
-        if noise or any(draws_in(value) for value in values_of(node)):
+        if node.node_type.draws or "id" in node.node_type.reserved or any(draws_in(value) for value in values_of(node)):
             return "keys the random numbers of the operators"
     if holder.spawns:
         return f"names the parents of {holder.spawns[0].path}"

@@ -32,8 +32,12 @@ def _acting(movers: list[Mover]) -> list[Mover]:
 
 
 def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
-    """Return how many cells of held noise a step may meet; it is split where they meet. The paper's steps are whole."""
-    if not _has_role(_acting(movers), "noise") or method == "sims":
+    """Return how many cells of noise a step may meet; it is split where they meet. The paper's steps are whole.
+
+    In those held noise is that of the middle, and Brownian noise the sum over all cells.
+    """
+    noise = [mover for mover in _acting(movers) if mover.role == "noise"]
+    if not noise or (method == "sims" and not any(mover.is_brownian for mover in noise)):
         return 1
     return most_cells(time.fps, time.preroll, time.substeps)
 
@@ -61,22 +65,31 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> Choice:
         raise GraphError(
             Problem(f"there is no exact solution for {names} together; choose 'auto' or 'adaptive'", path="time.method")
         )
+    order_one = _of_order_one(movers)
     why = f"{_why_composed(inner)} ({names})"
     if asked == "adaptive":
         time = flat.time
         reason = f"{why}: order {time.order} by extrapolation, steps of each particle's own, {time.tolerance:g} m a second"
-        return Choice("adaptive", reason, Scheme(COUNTS[time.order], time.tolerance))
-    return Choice("strang", f"{why}: composed symmetrically, second order")
+        return Choice("adaptive", reason + order_one, Scheme(COUNTS[time.order], time.tolerance))
+    return Choice("strang", f"{why}: composed symmetrically, second order{order_one}")
 
 
 def _how_exact(movers: list[Mover]) -> str:
     """Return how exact the steps of linear motion are, and what in them is not."""
     changing = [mover for mover in movers if mover.role == "linear" and not mover.constant]
-    held = " in each 1/24 s, for which noise holds" if _has_role(movers, "noise") else ""
+    noise = [mover for mover in movers if mover.role == "noise"]
+    held = " in each 1/24 s, for which noise holds" if any(not mover.is_brownian for mover in noise) else ""
+    held += _of_order_one(movers)
     if changing:
         when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
         return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
     return f"one exact step{held}"
+
+
+def _of_order_one(movers: list[Mover]) -> str:
+    """Return what is to be said of Brownian noise: how its motion comes nearer to that along its one path."""
+    names = [mover.node.node_type.name for mover in movers if mover.is_brownian]
+    return f", of Brownian noise ({', '.join(names)}) right in distribution and of order 1 in the step" if names else ""
 
 
 def _is_alone(mover: Mover, drifts: bool) -> bool:

@@ -42,9 +42,9 @@ class State:
 class Moment:
     """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, its begin and end.
 
-    `cell_time` gives a time of the p-th cell of held noise that the step meets: "cell" is its number, "cell begin" and
-    "cell end" its ends. All are from the start of the frame [s]. `part` gives the number-th of `count` equal parts of it.
-    A step known to lie in one cell has its number as `cell`.
+    `cell_time` gives a time of the p-th cell of noise that the step meets, see `motion.clock.cell_time`; `born` when a
+    particle was born, where that may be within the step. All are from the start of the frame [s]. `part` gives the
+    number-th of `count` equal parts of it. A step known to lie in one cell has its number as `cell`.
     """
 
     builder: Builder
@@ -56,6 +56,7 @@ class Moment:
     end: Callable[[], Operand]
     part: Callable[[int, int], Moment]
     cell: int | None = None
+    born: Callable[[], Operand] | None = None
 
 
 @dataclass
@@ -197,6 +198,7 @@ class Moments:
             lambda: builder.call(basic.sum_of_numbers, then, dt, name="end"),
             part,
             cell,
+            lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
         )
 
     def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:

@@ -4,7 +4,7 @@
 
 L is the linear motion, which carries a particle by its velocity. A flow F that gives position and velocity acts in it
 on the velocity alone, so that nothing is carried twice; only where it stands alone is it the whole motion, and exact.
-A step is split where it meets another cell of held noise: within a cell noise is a constant of L.
+A step is split where it meets another cell of noise: within a cell noise is a constant of L.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
 from graphfx.plan.scheme import SIMPLE, Scheme, write_scheme
+from graphfx.plan.white_noise import WHOLE_STEP, WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
 
 FOR_EVER = Uniform("1e9", "float", 1e9)
@@ -44,7 +45,8 @@ class Motion:
     def __post_init__(self) -> None:
         """Gather what is summed into the linear motion."""
         parts = [mover for mover in self.movers if mover.role in ("linear", "noise") and not mover.idle]
-        self.linear = LinearMotion(parts, self.arguments, self.under_conditions, self.changing)
+        noise = WhiteNoise(self.cells)
+        self.linear = LinearMotion(parts, self.arguments, self.under_conditions, self.changing, noise)
 
     def of(self, role: str) -> list[Mover]:
         """Return the operators of one role that act at all, in order."""
@@ -76,6 +78,13 @@ class Motion:
                 if rate_of(value, moment.writer.scope) == Rate.PARTICLE and not depends_on_time(value):
                     moment.writer.shared[id(value)] = moment.writer.argument(value)
         self.linear.prepare(moment, state)
+
+    def prepare_step(self, moment: Moment) -> None:
+        """Write, once for all who go parts of a step, the Brownian noise of it."""
+        cells = (WHOLE_STEP,) if self.method == "sims" else range(self.cells)
+        for mover in self.of("noise"):
+            for cell in cells:
+                self.linear.noise.prepare(mover, moment, cell)
 
     def step(self, moment: Moment, state: State) -> dict[str, Operand] | None:
         """Write one step of dt, in place; return the estimated errors, where there are estimates.
@@ -198,7 +207,7 @@ class Motion:
             if mover.role in INNER_ROLES:
                 self._apply_paper(mover, moment, state)
             elif mover.role in ("linear", "noise"):
-                write_paper_step(moment, state, self.linear.terms(mover, moment, state))
+                write_paper_step(moment, state, self.linear.terms(mover, moment, state, WHOLE_STEP))
         builder.note = "move"
         if before is not None:
             builder.call(basic.sims_move, state.position, before, state.velocity, moment.dt, into=state.position)  # type: ignore[arg-type]

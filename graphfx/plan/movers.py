@@ -9,7 +9,7 @@ from typing import Any
 from graphfx.graph.flat import FlatNode
 from graphfx.motion.probe import LinearForm, probe
 from graphfx.plan.evaluate import holds
-from graphfx.plan.holder import names_in
+from graphfx.plan.holder import is_brownian, names_in
 from graphfx.plan.rates import depends_on_time, lane_type
 from graphfx.plan.values import node_function
 from graphfx.program import Function
@@ -38,6 +38,11 @@ class Mover:
     def writes_velocity(self) -> bool:
         """Return whether it changes the velocity, and through it alone the position; else the position."""
         return "velocity" in self.node.node_type.writes
+
+    @property
+    def is_brownian(self) -> bool:
+        """Return whether it is noise that is a Wiener process, and not held for each cell."""
+        return is_brownian(self.node)
 
     @property
     def carries(self) -> bool:

@@ -87,6 +87,7 @@ class FrameWriter:
             moment = moments.whole_step(active, k, state)
             if k == 0:
                 self.motion.prepare(moment, state)
+            self.motion.prepare_step(moment)
             met = {instant: column for instant, column in captures.items() if instant.step(self.substeps) == k}
             before = active.call(basic.copy_vector, state.position, name="before") if met else None
             start = contacts.start(active, state)
@@ -160,6 +161,8 @@ class FrameWriter:
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
+            going = builder.under(turn.going(builder, finish))
+            self.motion.prepare_step(moments.own_step(going, k, now, now, state))
             if pacing is not None:
                 self._paced_turns(builder, moments, k, turn, pacing, finish)
             else:

@@ -9,7 +9,6 @@ from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.values import Literal
 from graphfx.motion.probe import carries
 from graphfx.node import DERIVED_ATTRIBUTES, INFINITY, NUMERIC_TYPES, NodeType
-from graphfx.node.declare import RESPONSE
 from graphfx.plan.hits import response_of
 from graphfx.plan.holder import ENDING_ROLES, SETTING_ROLES, Holder, moment_of, names_in
 from graphfx.plan.liveness import values_of
@@ -45,7 +44,7 @@ def _of_node(node: FlatNode) -> Iterator[Problem]:
         )
     particles = not node.node_type.language and node.node_type.kind != "geometry"
     for parameter in node.node_type.parameters.values() if particles else ():
-        if parameter.type not in (*NUMERIC_TYPES, "mesh") and parameter.name not in {each.name for each in RESPONSE}:
+        if parameter.type not in (*NUMERIC_TYPES, "mesh") and parameter.name in node.node_type.arguments:
             yield Problem(
                 f"its parameter '{parameter.name}' is a {parameter.type}, and functions for particles are given "
                 f"{', '.join(NUMERIC_TYPES)} alone in this version",

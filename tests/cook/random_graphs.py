@@ -92,8 +92,15 @@ class GraphMaker:
             "attract_line": lambda: {"strength": self.scalar(-9, 9), "axis": self.vector()},
             "curl_noise": lambda: {"speed": self.scalar(-2, 2), "size": self.scalar(0.1, 2)},
             "turbulence": lambda: {"strength": self.scalar(-2, 2), "rate": self.scalar(0, 2)},
-            "random_acceleration": lambda: {"strength": self.scalar(-2, 2), "along": self.vector()},
-            "random_translate": lambda: {"speed": self.scalar(-2, 2)},
+            "random_acceleration": lambda: {
+                "strength": self.scalar(-2, 2),
+                "along": self.vector(),
+                "process": self.random.choice(("hold", "brownian")),
+            },
+            "random_translate": lambda: {
+                "speed": self.scalar(-2, 2),
+                "process": self.random.choice(("hold", "brownian")),
+            },
             "bounce_plane": lambda: {"normal": self.vector(), **bounce},
             "bounce_sphere": lambda: {"center": self.vector(), "sphere_radius": self.number(0.1, 1), **bounce},
         }

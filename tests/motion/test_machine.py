@@ -48,6 +48,18 @@ CASES: dict[str, list[Any]] = {
     ],
     "drag on a plane": [{"type": "drag"}, {"type": "bounce_plane", "normal": [0, 1, 1], "resilience": 0.6}],
     "noise": [{"type": "random_acceleration", "strength": RAND}, {"type": "random_translate", "along": [1, 0, 1]}],
+    "Brownian noise": [
+        {"type": "random_acceleration", "strength": RAND, "process": "brownian"},
+        {"type": "random_translate", "process": "brownian", "only": {"expr": "position.y > 1"}},
+        {"type": "random_translate", "id": "held"},
+    ],
+    "Brownian noise among others": [
+        {"type": "random_acceleration", "process": "brownian", "during": [0.1, 0.4]},
+        {"type": "vortex", "magnitude": {"expr": "position.x"}},
+        {"type": "gravity"},
+        {"type": "recycle"},
+        {"type": "bounce_plane", "resilience": 0.6},
+    ],
     "noise among others": [
         {"type": "random_acceleration", "strength": RAND, "during": [0.1, 0.4], "only": {"expr": "position.y > 1"}},
         {"type": "random_translate", "speed": {"keys": [[0, 0], [1, 2]]}},

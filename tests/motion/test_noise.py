@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from graphfx.math import Vec3
+from graphfx.math import on_unit_sphere
 from graphfx.math.random import counter_of, key_of, philox4x32, uniform
 from graphfx.motion.clock import Clock, cell_time, most_cells
 
-from .one_particle import LIBRARY, path
+from .one_particle import path
 from .test_linear import array
 from .test_machine import effect_of
 
@@ -67,10 +67,10 @@ def test_particles_that_bounce_keep_their_noise():
 
 
 def push_of(life: int, cell: int) -> np.ndarray:
-    """Return the push of the first particle of `one` in a life and a cell."""
+    """Return the push of the first particle of `one` in a life and a cell: 5 on_unit_sphere(u, v) w^(1/3)."""
     words = philox4x32(counter_of(0, life, cell), key_of(0, "one", "act/random_acceleration"))
-    draw = tuple(uniform(word) for word in words)
-    return array(LIBRARY["random_acceleration"].function(draw, np.float64(5.0), Vec3(*map(np.float64, (1, 1, 1)))))
+    u, v, w, _ = (uniform(word) for word in words)
+    return array(on_unit_sphere(u, v)) * 5 * w ** (1 / 3)
 
 
 def test_draws_are_philox_of_seed_path_id_and_cell():

@@ -13,6 +13,7 @@ from graphfx.contract.inputs import Inputs
 HERE = Path(__file__).parent
 FAULTS = [
     ("bent", "is_linear", "it is not linear in velocity: ["),
+    ("gusty", "is_proportional", "it is not proportional to noise: ["),
     ("hasty", "composes", "two half steps do not give the position of a whole one: ["),
     ("jumpy", "composes", "a step of no time changes the position: ["),
     ("unbounded", "stays_finite", " rows are not finite in float32, for instance with position="),
