@@ -10,7 +10,7 @@ import numpy as np
 from graphfx.cook.particles import Particles
 from graphfx.cook.paths import Lives, Window, lives_of, ways_of, with_bends
 from graphfx.render.streaks import Streaks
-from graphfx.render.ways import STRAIGHT, Chords, Pieces, chords_of, pieces_of, within
+from graphfx.render.ways import Chords, Pieces, chords_of, pieces_of, within
 
 
 @dataclass
@@ -90,23 +90,14 @@ class _Drawing:
         if not bent.any():
             return chords.straight, chords, []
         ends = Chords(chords.head[:, bent], chords.tail[:, bent], chords.straight[bent])
-        pieces = pieces_of(
-            within(ways.chosen(bent), begin[bent], end[bent], ends), STRAIGHT[self.look.get("streak", "exposed")]
-        )
-        return chords.straight, chords, [self._in_pieces(rows[bent], self._seen(pieces))]
+        pieces = pieces_of(within(ways.chosen(bent), begin[bent], end[bent], ends), self.look.get("streak") == "solid")
+        return chords.straight, chords, [self._in_pieces(rows[bent], pieces)]
 
     def _begin(self, rows: np.ndarray) -> np.ndarray:
         return np.full(len(rows), self.window.opening) if self.lives is None else self.lives.begin[rows]
 
     def _end(self, rows: np.ndarray) -> np.ndarray:
         return np.full(len(rows), self.window.closing) if self.lives is None else self.lives.end[rows]
-
-    def _seen(self, pieces: Pieces) -> Pieces:
-        """Return the pieces that are seen: a stop on the way of a solid streak is within its caps."""
-        if self.look.get("streak") != "solid":
-            return pieces
-        moves = (pieces.head != pieces.tail).any(axis=0)
-        return pieces.chosen(moves | ~np.isin(pieces.owner, pieces.owner[moves]))
 
     def _column(self, name: str, rows: np.ndarray) -> Any:
         """Return an attribute of rows, or what it is for all."""
@@ -136,12 +127,12 @@ class _Drawing:
                 finite &= np.isfinite(part)
         return finite
 
-    def _moments(self, head: Any, tail: Any, ends: tuple[str, str] = ("head", "tail")) -> dict[str, Any]:
+    def _moments(self, head: Any, tail: Any) -> dict[str, Any]:
         """Return when the ends of streaks are seen, if that matters."""
         if not self.moving or self.window.length <= 0:
             return {}
         moments = [((self.window.closing - time) / self.window.length).astype(np.float32) for time in (head, tail)]
-        return {f"{end}_moment": moment for end, moment in zip(ends, moments, strict=True)}
+        return {f"{end}_moment": moment for end, moment in zip(("head", "tail"), moments, strict=True)}
 
     def _share(self, rows: np.ndarray) -> Any:
         return 1.0 if self.lives is None else self.lives.share[rows].astype(np.float32)
@@ -166,9 +157,7 @@ class _Drawing:
         part = (pieces.head_time - pieces.tail_time) / length
         return Streaks(
             head=pieces.head, tail=pieces.tail, **looks, share=self._share(whose), part=part.astype(np.float32),
-            joined=pieces.joined, ahead=pieces.ahead, behind=pieces.behind,
-            **self._moments(pieces.head_time, pieces.tail_time),
-            **self._moments(pieces.ahead_time, pieces.behind_time, ("ahead", "behind")), **self.look,
+            joined=pieces.joined, **self._moments(pieces.head_time, pieces.tail_time), **self.look,
         ), whose
 
 

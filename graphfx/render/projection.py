@@ -15,15 +15,14 @@ a point at moment m (0: head camera, 1: tail camera) is (1 - m) of what one sees
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from graphfx.lanes import compiled
 from graphfx.lanes.inner import inner
+from graphfx.render.chains import chain_of, laid_straight, trace_path
 from graphfx.render.evenness import evenness
 from graphfx.render.falloff import CURVE
-from graphfx.render.joints import joints_of, write_joints
+from graphfx.render.joints import PACE, TIME, joints_of, write_joints
 from graphfx.render.order import ordered_word
 from graphfx.render.segments import (
     BLURRED,
@@ -45,11 +44,9 @@ from graphfx.render.segments import (
     X,
     Y,
 )
-from graphfx.render.sight import between_planes, mixed, seen_at, value_of
-from graphfx.render.weights import GREATEST_PACE, joined_total, pace_of, true_total
+from graphfx.render.sight import finite, mixed, opacities_of, screen_segment, time_of, unit, value_of
+from graphfx.render.weights import GREATEST_PACE, pace_of, true_total
 
-GREATEST_RADIUS = 1e9
-"""Pixels; more than this is as good as this, and its square is a float32."""
 GREATEST_OPACITY = 1e6
 """At the centre of a small particle, before its share of a pixel; far more than is ever needed."""
 GREATEST_COLOR = 1e30
@@ -57,59 +54,8 @@ GREATEST_COLOR = 1e30
 
 
 @inner
-def finite(columns, i):
-    """Return whether all numbers of particle i are finite."""
-    total = 0.0
-    for c in range(17):
-        value = value_of(columns, c, i)
-        total += value - value
-    return total == 0.0
-
-
-@inner
-def _unit(value):
-    return min(max(value, 0.0), 1.0)
-
-
-@inner
 def _color(value):
     return min(max(value, -GREATEST_COLOR), GREATEST_COLOR)
-
-
-@inner
-def screen_segment(columns, i, view, look):
-    """Return (visible, first s, last s, (x, y, dx, dy, r0, r1, k0, k1), radii in focus, pixels out of it) of particle i."""
-    head = seen_at(columns, i, 0, 6, value_of(columns, 19, i), view)
-    tail = seen_at(columns, i, 3, 7, value_of(columns, 20, i), view)
-    first, last = between_planes(head[2], tail[2], view.near, view.far)
-    x0, x1 = mixed(head[0], tail[0], first), mixed(head[0], tail[0], last)
-    y0, y1 = mixed(head[1], tail[1], first), mixed(head[1], tail[1], last)
-    k0 = min(max(mixed(head[2], tail[2], first), view.near), view.far)  # rounding must not leave the planes
-    k1 = min(max(mixed(head[2], tail[2], last), view.near), view.far)
-    r0, r1 = mixed(head[3], tail[3], first), mixed(head[3], tail[3], last)
-    c0, c1 = mixed(head[4], tail[4], first), mixed(head[4], tail[4], last)
-    if view.perspective:
-        i0, i1 = 1.0 / k0, 1.0 / k1
-        x0, y0, r0, c0, k0 = x0 * i0, y0 * i0, r0 * i0, c0 * i0, -i0
-        x1, y1, r1, c1, k1 = x1 * i1, y1 * i1, r1 * i1, c1 * i1, -i1
-    sharp = min(r0, GREATEST_RADIUS), min(r1, GREATEST_RADIUS)
-    confusion = 0.0, 0.0
-    if view.blurred:
-        confusion = _bounded(c0 * look.spread), _bounded(c1 * look.spread)
-    r0, r1 = _drawn_radius(sharp[0], confusion[0]), _drawn_radius(sharp[1], confusion[1])
-    visible = first <= last and max(sharp[0], sharp[1]) > 0.0 and (x0 + y0 + x1 + y1) * 0.0 == 0.0
-    return visible, first, last, (x0, y0, x1 - x0, y1 - y0, r0, r1, k0, k1), sharp, confusion
-
-
-@inner
-def _drawn_radius(radius, confusion):
-    """Return the radius of what is out of focus."""
-    return radius if confusion == 0.0 else min(math.sqrt(radius * radius + confusion * confusion), GREATEST_RADIUS)
-
-
-@inner
-def _bounded(confusion):
-    return min(max(confusion, -GREATEST_RADIUS), GREATEST_RADIUS)
 
 
 @inner
@@ -124,8 +70,8 @@ def touches(segment, reach, window):
 
 
 @inner
-def _write_place(segment, pace, kind, look, segments, at):
-    """Write where a segment is."""
+def _write_place(segment, sharp, confusion, pace, kind, look, segments, at):
+    """Write where a segment is, and how far out of focus."""
     x, y, dx, dy, r0, r1, k0, k1 = segment
     places, values = segments.places, segments.values
     places[at, X], places[at, Y], places[at, DX], places[at, DY] = x, y, dx, dy
@@ -136,21 +82,10 @@ def _write_place(segment, pace, kind, look, segments, at):
         segments.curve[at] = look.curve
     segments.kind[at] = kind
     segments.nearest[at] = min(values[at, KEY0], values[at, KEY1])
-
-
-@inner
-def _write_focus(sharp, confusion, segments, at):
-    """Write what a segment that is out of focus would be in focus, and how far it is out."""
-    focus = segments.focus
-    focus[at, SHARP0], focus[at, SHARP1] = sharp[0], sharp[1]
-    focus[at, CONFUSION0], focus[at, CONFUSION1] = confusion[0], confusion[1]
-
-
-@inner
-def _opacities(columns, i, first, last):
-    """Return the opacities at the ends of the part that is seen."""
-    head, tail = _unit(value_of(columns, 14, i)), _unit(value_of(columns, 15, i))
-    return mixed(head, tail, first), mixed(head, tail, last)
+    if kind & BLURRED:
+        focus = segments.focus
+        focus[at, SHARP0], focus[at, SHARP1] = sharp[0], sharp[1]
+        focus[at, CONFUSION0], focus[at, CONFUSION1] = confusion[0], confusion[1]
 
 
 @inner
@@ -185,40 +120,56 @@ def _in_slab(nearest, number, slab):
 
 
 @inner
-def _write_segment(columns, i, view, look, window, number, segments, at):
+def _kind_of(sharp, confusion, look):
+    """Return the kind of a segment that goes on in no other."""
+    kind = look.code | (0 if look.exposed else SOLID) | (THIN if min(sharp[0], sharp[1]) < 1.0 else 0)
+    return kind | BLURRED | THIN if confusion[0] != 0.0 or confusion[1] != 0.0 else kind
+
+
+@inner
+def _chain_factor(segment, path, k, look, perspective, segments, at):
+    """Return what weighs the opacity of a piece that is joined, and its factor."""
+    length, ahead, time, light = chain_of(path, k, look)
+    straight, sharp, confusion, opacities = laid_straight(segment, path, k, length, ahead)
+    whole = pace_of(straight, look, perspective)
+    _write_place(straight, sharp, confusion, whole, _kind_of(sharp, confusion, look), look, segments, at)
+    factor = evenness(segments, at, perspective, opacities, true_total(sharp, opacities, straight, look))
+    if look.exposed:
+        return min(path.pieces[k, PACE] * time / path.pieces[k, TIME], GREATEST_PACE), factor * light * time
+    return whole, factor
+
+
+@inner
+def _write_segment(columns, i, count, view, look, window, number, segments, at, path):
     """Write the segment of particle i, which is `number` of all; return whether it is seen in the window."""
     visible, first, last, segment, sharp, confusion = screen_segment(columns, i, view, look)
     if not visible or not touches(segment, look.reach, window):
         return False
-    kind = look.code | (0 if look.exposed else SOLID) | (THIN if min(sharp[0], sharp[1]) < 1.0 else 0)
-    if confusion[0] != 0.0 or confusion[1] != 0.0:
-        kind |= BLURRED | THIN
-        _write_focus(sharp, confusion, segments, at)
-    pace, portion = pace_of(segment, look, view.perspective), _unit(value_of(columns, 17, i)) * (last - first)
-    joints = joints_of(np.int64(value_of(columns, 18, i)), segment, first, last)
-    opacities = _opacities(columns, i, first, last)
-    total, factor = true_total(sharp, opacities, segment, look), 1.0
-    if joints != 0 and portion > 0.0:
-        kind |= joints
-        write_joints(columns, i, view, segment, segments, at)
-        pace = min(pace / portion, GREATEST_PACE)
-        total = joined_total(sharp, opacities, segment, look, joints, portion)
-    elif look.exposed:
-        factor = portion
-    _write_place(segment, pace, kind, look, segments, at)
+    opacities, kind = opacities_of(columns, i, first, last), _kind_of(sharp, confusion, look)
+    pace, factor = pace_of(segment, look, view.perspective), time_of(columns, i, first, last) if look.exposed else 1.0
+    joints = k = 0
+    if len(path.pieces) > 0:
+        k = trace_path(columns, i, count, view, look, path)
+        joints = joints_of(path, k)
+    if joints != 0:
+        pace, factor = _chain_factor(segment, path, k, look, view.perspective, segments, at)
+        write_joints(path, k, joints, segments, at)
+    _write_place(segment, sharp, confusion, pace, kind | joints, look, segments, at)
     if window.slab.sliced and not _in_slab(segments.nearest[at], number, window.slab):
         return False
-    factor *= evenness(segments, at, view.perspective, opacities, total)
+    if joints == 0:
+        factor *= evenness(segments, at, view.perspective, opacities, true_total(sharp, opacities, segment, look))
     if look.exposed:
-        factor *= _unit(value_of(columns, 16, i))
+        factor *= unit(value_of(columns, 16, i))
     return _write_look(columns, i, first, last, opacities, factor, look, segments, at)
 
 
 @compiled
-def project(columns, view, look, window, first, count, segments, at):
+def project(columns, view, look, window, first, count, segments, at, path):
     """Write the segments of `count` particles from row `at` on; return how many, and how many particles were dropped.
 
     Particle i of the columns is number first + i of all streams. Only those that may touch the window are written.
+    `path` is room for the longest path; for none where no streak goes on in another.
     """
     begin, dropped = at, 0
     filtered = len(window.top_rows) > 0
@@ -228,7 +179,7 @@ def project(columns, view, look, window, first, count, segments, at):
             continue
         if not finite(columns, i):
             dropped += 1
-        elif _write_segment(columns, i, view, look, window, number, segments, at):
+        elif _write_segment(columns, i, count, view, look, window, number, segments, at, path):
             if len(segments.particle):
                 segments.particle[at] = number
             at += 1

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from graphfx.render.camera import Camera
+from graphfx.render.joints import new_path
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.patches import Counts, Patch, whole_picture
 from graphfx.render.projection import project
@@ -27,13 +28,16 @@ EVERYWHERE = Slab(False, 0, 0, 0, 0)
 
 
 class Piece(NamedTuple):
-    """Particles start ... stop - 1 of a stream; the first of them is number `first` of all streams."""
+    """Particles start ... stop - 1 of a stream; the first of them is number `first` of all streams.
+
+    No path is in two pieces; if any is of several streaks, `longest` is the most of them."""
 
     stream: Streaks
     look: Look
     first: int
     start: int
     stop: int
+    longest: int
 
     @property
     def length(self) -> int:
@@ -116,7 +120,9 @@ class Scene:
 
     def _project(self, piece: Piece, window: Window, segments: Segments, at: int) -> tuple[int, int]:
         columns = piece.columns()
-        kept, dropped = project(addresses(columns), self.view, piece.look, window, piece.first, piece.length, segments, at)
+        kept, dropped = project(
+            addresses(columns), self.view, piece.look, window, piece.first, piece.length, segments, at, new_path(piece.longest)
+        )
         return kept, dropped
 
     def survey(self, beside: np.ndarray | None = None) -> tuple[Counts, int]:
@@ -151,6 +157,17 @@ class Scene:
         return counts
 
 
+def _pieces_of(stream: Streaks, first: int, threads: int) -> list[Piece]:
+    """Return the pieces of a stream of which the first particle is number `first`."""
+    look, longest = look_of(stream), 0
+    bounds = ranges(stream.count, max(threads, -(-stream.count // PIECE)), GRAIN)
+    if stream.is_joined and stream.count:
+        starts = stream.path_starts()
+        longest = int(np.diff(starts).max())
+        bounds = [tuple(starts[np.searchsorted(starts, each)].tolist()) for each in bounds]
+    return [Piece(stream, look, first + start, start, stop, longest) for start, stop in bounds if stop > start]
+
+
 def make_scene(
     streams: Sequence[Streaks], head: Camera, tail: Camera, width: int, height: int, threads: int, sampled: bool
 ) -> Scene:
@@ -158,11 +175,7 @@ def make_scene(
     pieces: list[Piece] = []
     first = 0
     for stream in streams:
-        pieces += [
-            Piece(stream, look_of(stream), first + start, start, stop)
-            for start, stop in ranges(stream.count, max(threads, -(-stream.count // PIECE)), GRAIN)
-            if stop > start
-        ]
+        pieces += _pieces_of(stream, first, threads)
         first += stream.count
     view = view_of(head, tail, width, height)
     varies, curved = any(stream.varies for stream in streams), any(stream.curve is not None for stream in streams)

@@ -28,10 +28,8 @@ class Streaks:
     | `head_opacity`, `tail_opacity` | 0 to 1 | at the centre |
     | `share` | 0 to 1 | the part of the shutter for which the particle lives (`exposed` only) |
     | `part` | 0 to 1 | the part of that time that this streak takes, which is a piece of the particle's whole |
-    | `joined` | | 1: the streak goes on in another at its head, 2: at its tail, 3: at both; it has no caps there |
-    | `ahead`, `behind` | m | where the other ends of those are; straight on if not given |
+    | `joined` | | 1: at its head the particle goes on in the streak before, 2: at its tail in the one after, 3: both |
     | `head_moment`, `tail_moment` | 0 to 1 | when head and tail are seen: 0 by the head camera, 1 by the tail camera |
-    | `ahead_moment`, `behind_moment` | | when those ends are seen |
     | `blend` | | `over`, or `add`: shines without hiding what is behind |
     | `falloff` | | how opacity falls from the centre to the edge: `linear`, `gaussian`, `disc`, or points (q, opacity) |
     | `rows` | | the numbers of those that are drawn, in their order; all if not given |
@@ -53,10 +51,6 @@ class Streaks:
     joined: Column = 0.0
     head_moment: Column = 0.0
     tail_moment: Column = 1.0
-    ahead: Vectors | None = None
-    behind: Vectors | None = None
-    ahead_moment: Column = 0.0
-    behind_moment: Column = 1.0
     blend: str = "over"
     falloff: str | Points = "linear"
     streak: str = "exposed"
@@ -89,21 +83,25 @@ class Streaks:
         """Return whether any streak goes on in another."""
         return bool(np.any(self.joined))
 
+    def path_starts(self) -> np.ndarray:
+        """Return where in the order of drawn particles each path begins, and where the last ends."""
+        joined = self._column(np.asarray(self.joined).reshape(-1), slice(None) if self.rows is None else self.rows)
+        bits = np.broadcast_to(joined.astype(np.int64), self.count)
+        alone = (bits[:-1] & 2 == 0) | (bits[1:] & 1 == 0)
+        return np.concatenate([[0], np.flatnonzero(alone) + 1, [self.count]])
+
     def columns(self, start: int, stop: int) -> list[np.ndarray]:
-        """Return the 29 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
+        """Return the 21 columns of drawn particles start ... stop - 1 as float32, each of one value where that serves all.
 
         Order: head x y z, tail x y z, head and tail radius, head r g b, tail r g b, head and tail opacity, share, part,
-        joined, head and tail moment, ahead x y z, behind x y z, their moments.
+        joined, head and tail moment.
         """
         tail = self.head if self.tail is None else self.tail
         tail_radius = self.head_radius if self.tail_radius is None else self.tail_radius
         tail_color = self.head_color if self.tail_color is None else self.tail_color
         tail_opacity = self.head_opacity if self.tail_opacity is None else self.tail_opacity
         given = [*self.head, *tail, self.head_radius, tail_radius, *self.head_color, *tail_color,
-                 self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment,
-                 *(self.head if self.ahead is None else self.ahead), *(tail if self.behind is None else self.behind),
-                 self.ahead_moment if self.ahead is not None else self.head_moment,
-                 self.behind_moment if self.behind is not None else self.tail_moment]
+                 self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment]
         rows = slice(start, stop) if self.rows is None else self.rows[start:stop]
         return [self._column(np.asarray(column).reshape(-1), rows) for column in given]
 

@@ -11,7 +11,8 @@ from graphfx.lanes.inner import inner
 from graphfx.render.bins import tiles_near
 from graphfx.render.layer import TILE_HEIGHT, TILE_WIDTH
 from graphfx.render.order import ordered_word
-from graphfx.render.projection import finite, screen_segment, touches
+from graphfx.render.projection import touches
+from graphfx.render.sight import finite, screen_segment
 
 MARGIN = 0.02
 """Pixels added to the reach: no streak may be found in a tile in which it was not surveyed."""

@@ -2,7 +2,7 @@
 
 Between its places a way is straight and even in time. It is drawn as one streak, its chord, if at all these times the
 straight and even way from its first place to its last is within half a radius of it; and else as a piece from each place
-to the next. Where two pieces go on without a sharp turn they are joined.
+to the next.
 """
 
 from __future__ import annotations
@@ -19,9 +19,6 @@ NEAR = 0.5
 """Radii within which a straight way will do."""
 GRAIN = 4096
 """Fewest ways worth a thread of their own."""
-STRAIGHT = {"exposed": 0.7, "solid": -0.9}
-"""Cosine of the angle up to which a piece goes on in the next: where a way turns back, its light is seen twice, but a solid
-streak is one body."""
 
 
 @dataclass
@@ -99,10 +96,7 @@ def within(ways: Ways, begin: np.ndarray, end: np.ndarray, chords: Chords) -> Wa
 
 
 class Pieces(NamedTuple):
-    """Pieces of ways: whose they are, by place among the ways; their ends (3, n), and when these are [s]; and their joints.
-
-    `ahead` and `behind` are the other ends of the pieces in which a piece goes on, at its head and at its tail.
-    """
+    """Pieces of ways: whose they are, by place among the ways; their ends (3, n), when these are [s], and where they go on."""
 
     owner: np.ndarray
     head: np.ndarray
@@ -110,35 +104,21 @@ class Pieces(NamedTuple):
     head_time: np.ndarray
     tail_time: np.ndarray
     joined: np.ndarray
-    ahead: np.ndarray
-    behind: np.ndarray
-    ahead_time: np.ndarray
-    behind_time: np.ndarray
-
-    def chosen(self, which: np.ndarray) -> Pieces:
-        """Return some of them."""
-        return Pieces(*(column[..., which] for column in self))
 
 
-def pieces_of(ways: Ways, straight: float) -> Pieces:
+def pieces_of(ways: Ways, solid: bool) -> Pieces:
     """Return the pieces of ways, those of one after another, the latest first; what takes no time is left out.
 
-    Two go on in each other if the cosine of the angle between them is more than `straight`.
+    So are stops on a solid way: they are within it.
     """
     taken = ways.times[:-1] > ways.times[1:]
+    if solid:
+        moving = taken & (ways.places[:, :-1] != ways.places[:, 1:]).any(axis=0)
+        taken = np.where(moving.any(axis=0), moving, taken)
     owner, number = np.nonzero(taken.T)
-    head, tail = ways.places[:, number, owner], ways.places[:, number + 1, owner]
-    way = tail - head
-    length = np.sqrt((way**2).sum(axis=0))
     follows = owner[1:] == owner[:-1]
-    joint = follows & ((way[:, 1:] * way[:, :-1]).sum(axis=0) > straight * length[1:] * length[:-1])
-    joint &= (length[1:] > 0) & (length[:-1] > 0)
     joined = np.zeros(len(owner), np.float32)
-    joined[1:] += joint
-    joined[:-1] += 2 * joint
-    head_time, tail_time = ways.times[number, owner], ways.times[number + 1, owner]
-    last = len(owner) - 1
-    before, after = np.maximum(np.arange(last + 1) - 1, 0), np.minimum(np.arange(last + 1) + 1, last)
-    return Pieces(
-        owner, head, tail, head_time, tail_time, joined, head[:, before], tail[:, after], head_time[before], tail_time[after]
-    )
+    joined[1:] += follows
+    joined[:-1] += 2 * follows
+    head, tail = ways.places[:, number, owner], ways.places[:, number + 1, owner]
+    return Pieces(owner, head, tail, ways.times[number, owner], ways.times[number + 1, owner], joined)

@@ -27,12 +27,11 @@ def test_bounce_is_the_picture_of_two_straight_pieces(streak, substeps):
     Solid they are one body, in which each pixel is nearest to one of them.
     """
     found = scene([FLOOR], ONE, look={"streak": streak}, substeps=substeps)
-    corners = [np.float32([[x], [y], [0]]) for x, y in ((1.5, 1), (0.75, 0), (0, 1))]
-    look: dict[str, Any] = {"head_radius": 0.1, "head_opacity": 0.5, "part": 0.5, "streak": streak}
-    joints = [{"joined": 2.0, "behind": corners[2]}, {"joined": 1.0, "ahead": corners[0]}] if streak == "solid" else [{}, {}]
-    known = [Streaks(corners[k], corners[k + 1], **look, **joints[k]) for k in range(2)]
+    corners = np.float32([[1.5, 0.75, 0], [1, 0, 1], [0, 0, 0]])
+    joints = np.float32([2, 1] if streak == "solid" else [0, 0])
+    known = Streaks(corners[:, :2], corners[:, 1:], 0.1, head_opacity=0.5, part=0.5, joined=joints, streak=streak)
     camera = Camera((0, 1, 10), (0, 1, 0), projection="orthographic", view_width=8, near=0.01)
-    wanted = render(known, camera, None, 64, 48)
+    wanted = render([known], camera, None, 64, 48)
     np.testing.assert_allclose(found.film(2).pixels, wanted.pixels, rtol=0, atol=1e-5)
     assert ways(found, 2) == [((0.75, 0, 0), (1.5, 1, 0), 0.5), ((0, 1, 0), (0.75, 0, 0), 0.5)]
 

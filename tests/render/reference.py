@@ -12,8 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .paths_reference import connect
 from .polygon_reference import composite, fragments_of
-from .seen import homogeneous, seen_way
+from .seen import homogeneous
 
 F = np.float32
 MOMENTS = {"linear": 0.15, "gaussian": 0.09780020026157243, "disc": 0.25}
@@ -41,19 +42,38 @@ class Segment:
     perspective: bool
     confusion: tuple[float, float] = (0.0, 0.0)
     """Pixels out of focus at head and tail, times the square root of 1 / (4 moment)."""
-    joined: tuple[bool, bool] = (False, False)
-    others: tuple[np.ndarray, np.ndarray] = (np.zeros(2), np.zeros(2))
-    """The unit vectors from head and tail to the far ends of the segments in which this one goes on; zero if straight on."""
-    portion: float = 1.0
-    """The part of the whole streak's time that a joined segment takes; 1 for others."""
+    cut: tuple[float, float] = (0.0, 1.0)
+    """The part between the near and the far plane."""
+    time: float = 1.0
+    """The part of the particle's time that it takes."""
+    chain: tuple[float, float] | None = None
+    """Length and time of the segments in a row that go on in each other, if it is one of those."""
+    planes: tuple[np.ndarray | None, np.ndarray | None] = (None, None)
+    """The normals of the planes in which it ends where it goes on in others."""
+    light: float = 1.0
+    straight: Segment | None = None
+    """What makes that chain's light right, and the chain as it were if it went straight on."""
 
     @property
     def length(self) -> float:
         return float(np.hypot(*self.way))
 
     @property
+    def unit(self) -> np.ndarray:
+        return self.way / (self.length or 1.0)
+
+    @property
+    def pace(self) -> float:
+        """Return the length it would have if all of it were as deep as 1."""
+        return self.length / (self.inverse_depth(0) * self.inverse_depth(1))
+
+    def speed(self, inverse_depth):
+        """Return the speed on the screen at a depth, pixels a shutter."""
+        return self.pace / self.time * inverse_depth**2
+
+    @property
     def reach(self) -> float:
-        return max(*self.drawn(np.array([0.0, 1.0]))) + (0.5 if self.falloff == "disc" else 0.0)
+        return max(self.drawn(0.0), self.drawn(1.0)) + (0.5 if self.falloff == "disc" else 0.0)
 
     def nearest(self, x, y):
         """Return t of the closest point to pixel centres, and the distance."""
@@ -71,13 +91,10 @@ class Segment:
     def owned(self, x, y):
         """Return the pixels that are not nearer to the line of a segment in which this one goes on."""
         owned = np.ones(x.shape, bool)
-        for joined, corner, into, other in zip(
-            self.joined, (self.head, self.head + self.way), (self.way, -self.way), self.others, strict=True
-        ):
-            if joined:
-                normal = into / self.length - other
+        for normal, corner in zip(self.planes, (self.head, self.head + self.way), strict=True):
+            if normal is not None:
                 beyond = (x - corner[0]) * normal[0] + (y - corner[1]) * normal[1]
-                owned &= beyond >= 0 if corner is self.head else beyond > 0
+                owned &= beyond >= 0 if corner is self.head else beyond < 0
         return owned
 
     def at(self, x, y):
@@ -94,10 +111,11 @@ class Segment:
         else:
             edge = math.exp(-4.5)
             shape = np.maximum((np.exp(-4.5 * (distance / clamped) ** 2) - edge) / (1 - edge), 0)
+        length, time = self.chain or (self.length, self.time)
         if self.solid:
-            total, room = (area * r**2 + across * r * self.length / self.portion for r in (radius, clamped))
+            total, room = (area * r**2 + across * r * length for r in (radius, clamped))
             return shape * total / room, t, shape > 0
-        speed = self.length / self.portion * self.inverse_depth(t) ** 2 / (self.inverse_depth(0) * self.inverse_depth(1))
+        speed = self.speed(self.inverse_depth(t)) * time if self.time > 0 else self.length
         return shape * area * radius**2 / (area * clamped**2 + across * clamped * speed), t, shape > 0
 
     def inverse_depth(self, t):
@@ -120,6 +138,8 @@ def value(column, i, components=0):
 
 def evened(segment):
     """Return the factor that keeps a small particle's sum over all pixel centres at its true total."""
+    if segment.chain is not None:
+        return evened(segment.straight)
     fade = np.clip(2 - max(np.hypot(segment.radius, segment.confusion)), 0, 1) * np.clip(2 - segment.length / 64, 0, 1)
     if fade == 0:
         return 1.0
@@ -129,13 +149,6 @@ def evened(segment):
     true = area * np.trapezoid(radius**2 * opacity, share)
     if segment.solid:
         true = area * (radius**2 * opacity)[[0, -1]].mean() + across * segment.length * np.trapezoid(radius * opacity, share)
-    if any(segment.joined):
-        radius = np.mean(segment.radius)
-        drawn, caps, length = max(radius, 1.0), 1 - sum(segment.joined) / 2, segment.length
-        true = area * radius**2 + (across * radius * length / segment.portion if segment.solid else 0)
-        true *= (area * drawn**2 * caps + across * drawn * length) / (
-            area * drawn**2 + across * drawn * length / segment.portion
-        ) * np.mean(segment.opacity)
     low, high = (np.floor(edge(segment.head, segment.head + segment.way)) for edge in (np.minimum, np.maximum))
     x, y = np.meshgrid(*(np.arange(first - 5, last + 6) + 0.5 for first, last in zip(low, high, strict=True)))
     shape, t, _ = segment.at(x, y)
@@ -152,7 +165,6 @@ def project(stream, i, head_camera, tail_camera, width, height):
     share, part = value(stream.share, i), np.clip(value(stream.part, i), 0, 1)
     if not np.isfinite([*stream.head[:, i], *tail[:, i], *radii, *np.ravel(colors), *opacities, share]).all():
         return "dropped"
-    cameras = head_camera, tail_camera
     ends = []  # what is linear in s: see `homogeneous`
     for moment, point, radius, color, opacity in zip(
         (stream.head_moment, stream.tail_moment), (stream.head[:, i], tail[:, i]), radii, colors, opacities, strict=True
@@ -168,28 +180,25 @@ def project(stream, i, head_camera, tail_camera, width, height):
     points = [end[:2] / d for end, d in zip((first, last), divisors, strict=True)]
     keys = [F(-1 / end[2] if head_camera.perspective else end[2]) for end in (first, last)]
     spread = 0.5 / math.sqrt(MOMENTS[stream.falloff])
-    portion = part * (cut[1] - cut[0])
-    segment = Segment(
+    return Segment(
         points[0], points[1] - points[0], (first[3] / divisors[0], last[3] / divisors[1]), tuple(keys),
-        np.stack([first[5:8], last[5:8]]), (1, 1), stream.falloff, stream.streak == "solid", stream.blend == "add",
-        head_camera.perspective, (spread * first[4] / divisors[0], spread * last[4] / divisors[1]),
+        np.stack([first[5:8], last[5:8]]), (first[8], last[8]), stream.falloff, stream.streak == "solid", stream.blend == "add",
+        head_camera.perspective, (spread * first[4] / divisors[0], spread * last[4] / divisors[1]), cut, part * (cut[1] - cut[0]),
     )
-    joined = int(value(stream.joined, i))
-    if joined and portion > 0 and segment.length >= max(*segment.drawn(np.array([0.0, 1.0])), 1.0):
-        segment.joined = (bool(joined & 1) and cut[0] == 0, bool(joined & 2) and cut[1] == 1)
-    if any(segment.joined):
-        segment.portion = portion
-        far = [(stream.ahead, stream.ahead_moment, ends[0]), (stream.behind, stream.behind_moment, ends[1])]
-        segment.others = tuple(  # type: ignore[assignment]
-            np.zeros(2) if points is None else seen_way(cameras, end, points[:, i], value(moment, i), width, height)
-            for points, moment, end in far
-        )
-    segment.opacity = (first[8], last[8])
-    factor = evened(segment)
-    if not segment.solid:
-        factor *= np.clip(share, 0, 1) * (1 if any(segment.joined) else portion)
-    segment.opacity = tuple(end[8] * factor for end in (first, last))
-    return segment
+
+
+def segments_of(stream, head_camera, tail_camera, width, height):
+    """Return the Segment of each particle of a stream, None if it cannot be seen, or "dropped"."""
+    made = [project(stream, i, head_camera, tail_camera, width, height) for i in range(stream.head.shape[1])]
+    connect(stream, made, INTEGRALS[stream.falloff])
+    factors = [evened(segment) if isinstance(segment, Segment) else 0 for segment in made]
+    for i, (segment, factor) in enumerate(zip(made, factors, strict=True)):
+        if isinstance(segment, Segment):
+            if not segment.solid:
+                factor *= np.clip(value(stream.share, i), 0, 1) * segment.light
+                factor *= segment.chain[1] if segment.chain else segment.time
+            segment.opacity = tuple(opacity * factor for opacity in segment.opacity)
+    return made
 
 
 def planes(head, tail, near, far):
@@ -235,7 +244,7 @@ def exact_keys(segment, left, top):
 def reference(streams, head_camera, tail_camera, width, height, polygons=(), lighting=None):
     """Return (pixels float64 (height, width, 4), number of fragments, number of dropped particles and triangles)."""
     tail_camera = tail_camera or head_camera
-    made = [project(s, i, head_camera, tail_camera, width, height) for s in streams for i in range(s.head.shape[1])]
+    made = [each for stream in streams for each in segments_of(stream, head_camera, tail_camera, width, height)]
     dropped = sum(isinstance(m, str) for m in made)
     between, lost = fragments_of(polygons, lighting, head_camera, width, height)
     segments = [m for m in made if isinstance(m, Segment) and m.opacity != (0, 0)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 
 from graphfx.render import compositing
@@ -45,30 +43,37 @@ def film(*streams: Streaks, camera: Camera = CAMERA, tail_camera: Camera | None 
     return render(list(streams), camera, tail_camera, *size, threads)
 
 
-def cut(whole: Streaks, *moments: float, joined: bool = True) -> list[Streaks]:
+def cut(whole: Streaks, *moments: float, joined: bool = True) -> Streaks:
     """Return streaks in pieces that meet at moments between head (0) and tail (1), everything being even in time."""
-    bounds = [0.0, *moments, 1.0]
-    tail_radius = whole.head_radius if whole.tail_radius is None else whole.tail_radius
+    bounds = np.float64([0.0, *moments, 1.0])
+    size, count = len(bounds) - 1, whole.count
 
-    def at(head, tail, moment):
-        return (np.asarray(head, float) + moment * (np.asarray(tail, float) - head)).astype(np.float32)
+    given = {}
+    for side, at in (("head", bounds[:-1]), ("tail", bounds[1:])):
+        for name, columns in (("", 3), ("_radius", 0), ("_color", 3), ("_opacity", 0)):
+            shape = (columns, count) if columns else (count,)
+            ends = getattr(whole, f"head{name}"), getattr(whole, f"tail{name}")
+            both = (np.asarray(ends[0] if end is None else end, float) for end in ends)
+            head, tail = (np.broadcast_to(end.reshape(columns, -1) if columns else end, shape)[..., None] for end in both)
+            values = head + at * (tail - head)
+            given[f"{side}{name}"] = values.reshape(*shape[:-1], count * size).astype(np.float32)
+        given[f"{side}_moment"] = np.tile(at, count).astype(np.float32)
+    bits = (np.arange(size) > 0) + 2 * (np.arange(size) < size - 1)
+    share = np.repeat(np.broadcast_to(np.asarray(whole.share, np.float32), count), size)
+    return Streaks(
+        **given, share=share, part=np.tile(np.diff(bounds), count).astype(np.float32),
+        joined=np.tile(bits * joined, count).astype(np.float32), blend=whole.blend, falloff=whole.falloff, streak=whole.streak,
+    )
 
-    made = []
-    for k, (first, last) in enumerate(pairwise(bounds)):
-        ends = [{
-            "": at(whole.head, whole.tail, moment),
-            "_radius": at(whole.head_radius, tail_radius, moment),
-            "_color": at(whole.head_color, whole.head_color if whole.tail_color is None else whole.tail_color, moment),
-            "_opacity": at(whole.head_opacity, whole.head_opacity if whole.tail_opacity is None else whole.tail_opacity, moment),
-            "_moment": moment,
-        } for moment in (first, last)]
-        given = {f"{side}{name}": value for side, end in zip(("head", "tail"), ends, strict=True) for name, value in end.items()}
-        joints = ((k > 0) + 2 * (last < 1)) if joined else 0
-        made.append(Streaks(
-            **given, share=whole.share, part=last - first, joined=float(joints),
-            blend=whole.blend, falloff=whole.falloff, streak=whole.streak,
-        ))
-    return made
+
+def path(points, radius, parts=None, **look) -> Streaks:
+    """Return one path through points, head first; `parts` of the time of its pieces, as their lengths if not given."""
+    places = np.array(points, float).T
+    if parts is None:
+        parts = np.hypot(*np.diff(places[:2], axis=1))
+    bits = (np.arange(len(parts)) > 0) + 2 * (np.arange(len(parts)) < len(parts) - 1)
+    head, tail = (ends.astype(np.float32) for ends in (places[:, :-1], places[:, 1:]))
+    return Streaks(head, tail, radius, part=np.float32(parts / np.sum(parts)), joined=bits.astype(np.float32), **look)
 
 
 def sort_all_whole(monkeypatch) -> None:

@@ -7,14 +7,6 @@ import math
 import numpy as np
 
 
-def seen_way(cameras, end, point, moment, width, height):
-    """Return the direction on the screen, as a unit vector, in which the way from an end to a point starts."""
-    early, late = (homogeneous(camera, point, 0.0, width, height) for camera in cameras)
-    other = (1 - moment) * early + moment * late
-    way = other[:2] * end[2] - end[:2] * other[2] if cameras[0].perspective else other[:2] - end[:2]
-    return way / np.hypot(*way) if way.any() else np.zeros(2)
-
-
 def homogeneous(camera, point, radius, width, height):
     """Return X and Y in pixels, depth, radius and radius of confusion in pixels; in perspective all but depth times depth."""
     right, up, ahead = camera.axes()

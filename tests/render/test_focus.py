@@ -101,6 +101,6 @@ def test_impossible_lenses_are_refused(wrong, message):
 def test_blur_and_joints_need_no_memory_at_once(memory, monkeypatch):
     """Patches and slabs of depth give the same bytes out of focus and in pieces, on any threads."""
     monkeypatch.setattr(renderer, "LEAST_MEMORY", 1)
-    scene = [*cut(comets(55, 200), 0.4), streaks(56, 100, blend="add")]
+    scene = [cut(comets(55, 200), 0.4), streaks(56, 100, blend="add")]
     whole, parts = (render(scene, OPEN, CAMERA, 45, 37, threads, memory=m) for threads, m in ((1, np.inf), (2, memory)))
     assert whole.pixels.tobytes() == parts.pixels.tobytes() and whole.fragments == parts.fragments
