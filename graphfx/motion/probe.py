@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -85,6 +86,35 @@ def carries(function: Callable[..., Any], arguments: tuple[str, ...], types: tup
         if not np.allclose(moved, wanted, rtol=0, atol=1e-3 * SHORT):
             return False
     return True
+
+
+@cache
+def shape_of(function: Callable[..., Any], arguments: tuple[str, ...], types: tuple[str, ...], truths: tuple[bool, ...]) -> str:
+    """Return the shape of a surface's solid, whatever its numbers: "plane", "convex", "hollow" (the outside is convex) or "".
+
+    A signed distance is convex where the solid is, concave where the outside is, and both for a plane. That is tried with
+    places from 1 mm to 1000 km apart; `truths` are the truths among the parameters, in order.
+    """
+    generator = np.random.default_rng(1990)
+    kinds, given = dict(zip(arguments, types, strict=True)), iter(truths)
+    fixed_truths = {name: np.bool_(next(given)) for name, type_ in kinds.items() if type_ == "bool"}
+    convex = concave = True
+    for _ in range(TRIALS):
+        fixed = {name: _random(type_, generator) for name, type_ in kinds.items()} | fixed_truths
+        vectors = [name for name, type_ in kinds.items() if type_ == "vec3" and name != "position"]
+        fixed |= {name: Vec3(*np.abs(_array(fixed[name]) / np.linalg.norm(_array(fixed[name])))) for name in vectors}
+
+        def distance(place: np.ndarray, fixed: dict[str, Any] = fixed) -> float:
+            with np.errstate(all="ignore"):
+                return float(function(*((fixed | {"position": Vec3(*place)})[name] for name in arguments))[0])
+
+        for scale in (1e-3, 0.1, 1.0, 1.0, 1.0, 3.0, 10.0, 1e3, 1e6) * 2:
+            a, c = generator.normal(size=3) * generator.uniform(0.0, 3.0) + generator.normal(size=(2, 3)) * scale
+            over = (distance(a) + distance(c)) / 2 - distance((a + c) / 2)
+            slack = TOLERANCE * (1 + np.abs((a, c)).max())
+            convex &= bool(over >= -slack)
+            concave &= bool(over <= slack)
+    return "plane" if convex and concave else "convex" if convex else "hollow" if concave else ""
 
 
 def _random(type_: str, generator: np.random.Generator) -> Any:

@@ -2,41 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-from graphfx.motion import barrier, basic, contact
+from graphfx.motion import barrier, basic, contact, crossing
 from graphfx.plan.barriers import Barriers, Plane
+from graphfx.plan.crossing import Crossings, MomentOf, Search, Way, way_of
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.motion import Motion, Mover
+from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Operand, Uniform
 
-MomentOf = Callable[[Builder, Column], Moment]
 SEARCH_LIMIT = 60
 """Evaluations in the search for one contact; ten are usual."""
 TRIES = 16
 """How often a way is shortened because the contact found lies behind another face."""
 
 
-def distance_of(
+def distance_from(
     motion: Motion, surface: Mover, moment: Moment, state: State, plane: Plane | None = None
 ) -> tuple[Column, Column]:
-    """Write the signed distance from a surface, or from the plane at which it is met, and the normal there."""
+    """Write the signed distance from a surface as a step ends, or from the plane at which it is met, and the normal there."""
     moment.builder.note = surface.node.path
-    if plane is not None:
-        return plane.distance(moment.builder, state.position)
-    operands = motion.arguments(surface, moment, state)
-    distance, normal = moment.builder.call(surface.function, *operands, name="distance normal")
-    return distance, normal
+    return distance_of(motion, surface, moment, state) if plane is None else plane.distance(moment.builder, state.position)
 
 
 def remember(builder: Builder, state: State) -> dict[str, Column]:
     """Keep where a step starts."""
     assert state.velocity is not None
-    return {
-        "position": builder.call(basic.copy_vector, state.position, name="first position"),
-        "velocity": builder.call(basic.copy_vector, state.velocity, name="first velocity"),
-    }
+    first = builder.call(crossing.start, state.position, state.velocity, name="start velocity")
+    return dict(zip(("position", "velocity"), first, strict=True))
 
 
 def return_to(builder: Builder, state: State, first: dict[str, Column]) -> None:
@@ -47,12 +41,16 @@ def return_to(builder: Builder, state: State, first: dict[str, Column]) -> None:
 
 @dataclass
 class Candidate:
-    """A surface that particles may meet in a step: who does, when, its distance and normal at the start and that at the end."""
+    """A surface that particles may meet in a step: who does, when, its distance and normal at the start and that at the end.
+
+    The contact lies within `span`: the whole step, or the time to a place inside for who is outside at both ends.
+    """
 
     surface: Mover
     hit: Column
     start: tuple[Column, Column]
     end: Column
+    span: Column
     plane: Plane | None = None
     concerned: Column | None = None
     time: Column = field(default_factory=lambda: Column("time of contact", "float"))
@@ -70,29 +68,65 @@ class ContactSearch:
         moment_of: MomentOf,
         state: State,
         first: dict[str, Column],
+        step: Column,
         resolution: Uniform,
     ):
         self.motion, self.barriers, self.moment_of = motion, barriers, moment_of
-        self.state, self.first, self.resolution = state, first, resolution
+        self.state, self.first, self.step, self.resolution = state, first, step, resolution
+        self.crossings = Crossings(motion)
 
-    def candidate(self, surface: Mover, whole: Moment, start: tuple[Column, Column] | None) -> Candidate:
+    def candidates(self, surfaces: list[Mover], whole: Moment, starts: list[tuple[Column, Column] | None]) -> list[Candidate]:
+        """Write who meets each surface in the whole step."""
+        way = way_of(self.motion, whole.builder, self.first, self.state, self.step)
+        return [self.candidate(surface, whole, start, way) for surface, start in zip(surfaces, starts, strict=True)]
+
+    def candidate(self, surface: Mover, whole: Moment, start: tuple[Column, Column] | None, way: Way) -> Candidate:
         """Write who meets a surface in the whole step."""
         if start is not None:
-            end = distance_of(self.motion, surface, whole, self.state)[0]
-            hit = self.motion.under_conditions(surface, whole).call(contact.is_inside, end, name="inside")
-            return Candidate(surface, hit, start, end)
+            end = distance_of(self.motion, surface, whole, self.state)
+            concerned = self.motion.under_conditions(surface, whole)
+            hit = concerned.call(contact.is_inside, end[0], name="inside")
+            found = Candidate(surface, hit, start, end[0], self.step)
+            doubtful = self.crossings.possible(surface, whole, self.state, way, end, concerned)
+            if doubtful is not None:
+                self._crossed(found, whole.builder.under(doubtful), way)
+            return found
         concerned = self.motion.under_conditions(surface, whole)
         plane = self.barriers.meet(surface, whole, self.state, concerned, (self.first["position"], self.state.position))
         return self._of_plane(plane, whole.builder, self.state.position, concerned.mask)
+
+    def _crossed(self, candidate: Candidate, builder: Builder, way: Way) -> None:
+        """Write who has crossed a surface and come out again: the true path at the time found inside bounds the search."""
+        surface, state = candidate.surface, self.state
+        last = {
+            "position": builder.call(basic.copy_vector, state.position, name="last position"),
+            "velocity": builder.call(basic.copy_vector, state.read("velocity"), name="last velocity"),
+        }
+        end = last["velocity"] if way.end is state.velocity else way.end
+        way = replace(way, last=last["position"], end=end)
+        search = Search(self.motion, surface, self.moment_of, state, way, self.step, self.tolerance)
+        found, share = search.find(builder, candidate.start)
+        inner = builder.under(found)
+        time = inner.call(crossing.share_of, share, self.step, name="time inside")
+        return_to(inner, state, self.first)
+        moment = self.moment_of(inner, time)
+        self.motion.step(moment, state)
+        distance, _ = distance_of(self.motion, surface, moment, state)
+        inside = inner.call(contact.is_inside, distance, name="inside")
+        return_to(inner, state, last)
+        candidate.span = builder.under(builder.program.context).call(basic.copy_number, self.step, name="span")
+        builder.under(inside).call(basic.copy_number, time, into=candidate.span)
+        builder.under(inside).call(basic.copy_number, distance, into=candidate.end)
+        builder.under(builder.program.context).call(basic.either, candidate.hit, inside, into=candidate.hit)
 
     def _of_plane(self, plane: Plane, builder: Builder, end: Operand, concerned: Column | None = None) -> Candidate:
         inside = builder.under(plane.hit)
         start = plane.distance(inside, self.first["position"])
         below = inside.call(barrier.surely_below, plane.distance(inside, end)[0], self.tolerance)
-        return Candidate(plane.surface, plane.hit, start, below, plane, concerned)
+        return Candidate(plane.surface, plane.hit, start, below, self.step, plane, concerned)
 
-    def find(self, candidate: Candidate, builder: Builder, step: Column, best: Column) -> None:
-        """Write the search for the instant of a contact within `step`; `best` becomes it if it is earlier."""
+    def find(self, candidate: Candidate, builder: Builder, best: Column) -> None:
+        """Write the search for the instant of a contact within its span; `best` becomes it if it is earlier."""
         builder.note = f"{candidate.surface.node.path}: find the contact"
         state, resolution = self.state, self.resolution
         a, at_a, b, at_b, touching, at_once = builder.call(
@@ -101,7 +135,7 @@ class ContactSearch:
             candidate.end,
             candidate.start[1],
             self.first["velocity"],
-            step,
+            candidate.span,
             self.tolerance,
             name="a at_a b at_b touching at_once",
         )
@@ -114,13 +148,13 @@ class ContactSearch:
         return_to(inner, state, self.first)
         moment = self.moment_of(inner, time)
         self.motion.step(moment, state)
-        distance, _ = distance_of(self.motion, candidate.surface, moment, state, candidate.plane)
+        distance, _ = distance_from(self.motion, candidate.surface, moment, state, candidate.plane)
         bracket = (a, at_a, b, at_b, side)
         inner.call(contact.narrow, *bracket, time, distance, touching, into=bracket)
-        inner.call(contact.is_open, a, b, distance, step, self.tolerance, resolution, into=searching)
+        inner.call(contact.is_open, a, b, distance, candidate.span, self.tolerance, resolution, into=searching)
         builder.call(basic.earlier, time, best, into=best)
 
-    def shorten(self, builder: Builder, candidates: list[Candidate], step: Column, best: Column) -> None:
+    def shorten(self, builder: Builder, candidates: list[Candidate], best: Column) -> None:
         """Write the check that nothing stands in the way to the contact: where it does, that is the contact, and so on.
 
         Who still finds something in the way at last, in a narrow corner, is turned back with half the speed.
@@ -137,7 +171,7 @@ class ContactSearch:
         left = builder.under(doubtful)
         return_to(left, self.state, self.first)
         left.call(barrier.turned_back, self.state.velocity, into=self.state.velocity)  # type: ignore[arg-type]
-        left.call(basic.copy_number, step, into=best)
+        left.call(basic.copy_number, self.step, into=best)
         for candidate in candidates:
             builder.call(basic.but_not, candidate.hit, doubtful, into=candidate.hit)
 
@@ -155,8 +189,8 @@ class ContactSearch:
         found = self._of_plane(plane, fresh, put)
         candidate.plane.take(fresh, plane)
         found.plane, found.time = candidate.plane, candidate.time
-        limit = fresh.call(basic.copy_number, best, name="limit")
-        self.find(found, fresh, limit, best)
+        found.span = fresh.call(basic.copy_number, best, name="limit")
+        self.find(found, fresh, best)
         return_to(fresh, self.state, self.first)
         self.motion.step(self.moment_of(fresh, best), self.state)
         return plane.hit

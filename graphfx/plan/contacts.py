@@ -9,12 +9,14 @@ from typing import Any
 from graphfx.motion import barrier, basic, contact, events
 from graphfx.node import INFINITY
 from graphfx.plan.barriers import Barriers, is_barrier
-from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_of, remember, return_to
+from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_from, remember, return_to
+from graphfx.plan.crossing import Crossings, way_of
 from graphfx.plan.hits import Fate, Hit, Hits, response_of
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion, Mover
 from graphfx.plan.pacing import Pacing
 from graphfx.plan.scheme import kept_state
+from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Operand, Uniform
 
 FIXED = {
@@ -36,6 +38,7 @@ class Contacts:
         self.fate = fate
         self.surfaces = motion.of("surface")
         self.barriers = Barriers(motion)
+        self.crossings = Crossings(motion)
         self.resolution = Uniform("8 eps", "float", RESOLUTION[precision])
 
     def _response(self, surface: Mover, moment: Moment, names: tuple[str, ...]) -> list[Operand]:
@@ -48,20 +51,24 @@ class Contacts:
             for name in names
         ]
 
-    def main_step(self, moment: Moment, state: State, event: Column | None, start: Column | None = None) -> Column | None:
+    def main_step(self, moment: Moment, state: State, event: Column | None, start: dict[str, Column]) -> Column | None:
         """Write, after a whole step from `start`, which particles have met a surface; `sims` bounces them at once."""
-        builder = moment.builder
+        builder, mirrors = moment.builder, self.motion.method == "sims" and not (self.hits.ends and self.fate is None)
+        way = None
         for surface in self.surfaces:
             concerned = self.motion.under_conditions(surface, moment)
             if is_barrier(surface):
-                assert start is not None
-                plane = self.barriers.meet(surface, moment, state, concerned, (start, state.position))
+                plane = self.barriers.meet(surface, moment, state, concerned, (start["position"], state.position))
                 inside = plane.hit
                 distance, normal = plane.distance(builder.under(inside), state.position)
             else:
                 distance, normal = distance_of(self.motion, surface, moment, state)
                 inside = concerned.call(contact.is_inside, distance, name="inside")
-            if self.motion.method == "sims" and not (self.hits.ends and self.fate is None):
+                if self.crossings.concern(surface):
+                    way = way or way_of(self.motion, builder, start, state, moment.dt)
+                    crossed = self.crossings.possible(surface, moment, state, way, (distance, normal), concerned)
+                    inside = inside if crossed is None else builder.call(basic.either, inside, crossed, name="meets")
+            if mirrors:
                 if self.fate is not None:
                     inside = builder.call(basic.both, inside, builder.call(events.is_going_on, self.fate.fate), name="inside")
                 self._sims_bounce(surface, builder.under(inside), moment, state, distance, normal)
@@ -110,22 +117,22 @@ class Contacts:
             return None
         first = remember(builder, state)
         self.motion.select(whole)
-        starts = [None if is_barrier(surface) else distance_of(self.motion, surface, whole, state) for surface in self.surfaces]
+        starts = self._starts(whole, state)
         errors = self.motion.step(whole, state)
         if pacing is not None and errors is not None:
             whole = replace(whole, builder=(builder := pacing.judge(builder, state, first, step, errors)))
-        search = ContactSearch(self.motion, self.barriers, moment_of, state, first, self.resolution)
+        search = ContactSearch(self.motion, self.barriers, moment_of, state, first, step, self.resolution)
         search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
-        candidates = [search.candidate(surface, whole, start) for surface, start in zip(self.surfaces, starts, strict=True)]
+        candidates = search.candidates(self.surfaces, whole, starts)
         best = builder.call(basic.copy_number, step, name="contact time")
         for candidate in candidates:
-            search.find(candidate, builder.under(candidate.hit), step, best)
+            search.find(candidate, builder.under(candidate.hit), best)
         met = _any_of(builder, [candidate.hit for candidate in candidates])
         inner = builder.under(met)
         return_to(inner, state, first)
         self.motion.step(moment_of(inner, best), state)
         if self.barriers.surfaces:
-            search.shorten(inner, candidates, step, best)
+            search.shorten(inner, candidates, best)
         fade(builder, best)
         slides = builder.call(basic.but_not, met, met, name="slides")
         for candidate in candidates:
@@ -138,6 +145,13 @@ class Contacts:
         if pacing is not None:
             pacing.meet(builder, met)
         return met
+
+    def _starts(self, whole: Moment, state: State) -> list[tuple[Column, Column] | None]:
+        """Write the distance of each surface that has one as a step starts, and its normal."""
+        return [
+            None if is_barrier(surface) else distance_of(self.motion, surface, whole, state, begins=True)
+            for surface in self.surfaces
+        ]
 
     def _free_step(
         self,
@@ -190,9 +204,13 @@ class Contacts:
         if begin is not None:
             self.barriers.slide(moment, state, begin, tolerance)
 
-    def start(self, builder: Builder, state: State) -> Column | None:
-        """Keep where a step starts, if a surface asks for it."""
-        return builder.call(basic.copy_vector, state.position, name="start") if self.barriers.surfaces else None
+    def start(self, builder: Builder, state: State) -> dict[str, Column]:
+        """Keep where a step starts, if a surface asks for it; its velocity too where contacts are located."""
+        crossed = [surface for surface in self.surfaces if not is_barrier(surface) and self.crossings.concern(surface)]
+        if crossed:
+            return remember(builder, state)
+        barriers = self.barriers.surfaces
+        return {"position": builder.call(basic.copy_vector, state.position, name="start")} if barriers else {}
 
     def _answer(
         self,
@@ -206,7 +224,7 @@ class Contacts:
     ) -> Column:
         """Write what a surface does to the particles that meet it; return which of them slide."""
         moment, surface = moment_of(builder, time), candidate.surface
-        distance, normal = distance_of(self.motion, surface, moment, state, candidate.plane)
+        distance, normal = distance_from(self.motion, surface, moment, state, candidate.plane)
         if candidate.plane is not None:
             distance = builder.call(barrier.from_above, distance, tolerance, name="distance")
         response = self._response(surface, moment, ("resilience", "friction", "friction_threshold", "rest_speed"))

@@ -43,8 +43,9 @@ class Moment:
     """A step at which motion is written: `dt` [s], a writer whose clock stands in the middle of it, its begin and end.
 
     `cell_time` gives a time of the p-th cell of noise that the step meets, see `motion.clock.cell_time`; `born` when a
-    particle was born, where that may be within the step. All are from the start of the frame [s]. `part` gives the
-    number-th of `count` equal parts of it. A step known to lie in one cell has its number as `cell`.
+    particle was born, where that may be within the step. All are from the start of the frame [s]. `opening` and `closing`
+    are writers whose clock stands at the step's begin and end. `part` gives the number-th of `count` equal parts of it. A
+    step known to lie in one cell has its number as `cell`.
     """
 
     builder: Builder
@@ -54,6 +55,8 @@ class Moment:
     then: Operand
     cell_time: Callable[[str, int], Operand]
     end: Callable[[], Operand]
+    opening: Callable[[], ValueWriter]
+    closing: Callable[[], ValueWriter]
     part: Callable[[int, int], Moment]
     cell: int | None = None
     born: Callable[[], Operand] | None = None
@@ -147,10 +150,13 @@ class Moments:
         made = self.made
         parted = count > 1
 
-        def at(share: str, twice: int) -> Operand:
-            return made.time(builder, ("part", k, 2 * number + twice, 2 * count) if parted else (share, k))
+        def name(share: str, twice: int) -> Any:
+            return ("part", k, 2 * number + twice, 2 * count) if parted else (share, k)
 
-        middle = ("part", k, 2 * number + 1, 2 * count) if parted else ("middle", k)
+        def at(share: str, twice: int) -> Operand:
+            return made.time(builder, name(share, twice))
+
+        middle = name("middle", 1)
         scope = self._scope(builder, state, lambda: at("middle", 1), {})
         writer = self._writer(builder, scope, self._clock(builder, k), made.values_at(middle))
         return Moment(
@@ -161,6 +167,8 @@ class Moments:
             at("start", 0) if made.cells > 1 else ZERO_TIME,
             lambda kind, p: made.time(builder, (kind, k, p)),
             lambda: at("end", 2),
+            lambda: self.fixed(builder, name("start", 0), state),
+            lambda: self.fixed(builder, name("end", 2), state),
             lambda j, n: self.whole_step(builder, k, state, j, n),
         )
 
@@ -188,6 +196,10 @@ class Moments:
         lane = self._lane_clock(builder, k, lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"))
         lane.makers["half"] = lambda: builder.call(basic.half, dt, name="half")
         scope = self._scope(builder, state, lambda: lane["moment"], {})
+
+        def end() -> Operand:
+            return builder.call(basic.sum_of_numbers, then, dt, name="end")  # type: ignore[no-any-return]
+
         return Moment(
             builder,
             dt,
@@ -195,7 +207,9 @@ class Moments:
             self._writer(builder, scope, lane),
             then,
             lambda kind, p: self.made.time(builder, (kind, k, p)),
-            lambda: builder.call(basic.sum_of_numbers, then, dt, name="end"),
+            end,
+            lambda: self.at(builder, then, state),
+            lambda: self.at(builder, end(), state),
             part,
             cell,
             lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
