@@ -72,7 +72,7 @@ def test_a_parabola_meets_the_ceiling_within_a_step():
 SCENES: dict[str, tuple[list[dict[str, Any]], float]] = {
     "ball": ([{"type": "bounce_sphere", "sphere_radius": 0.3}], 12.0),
     "box": ([{"type": "bounce_box", "size": [0.2, 1.0, 0.1]}], 12.0),
-    "two": ([{"type": "bounce_sphere", "sphere_radius": 0.2}, {"type": "bounce_box", "center": [1, 0, 0]}], 12),
+    "two": ([{"type": "bounce_sphere", "sphere_radius": 0.2}, {"type": "bounce_box", "center": [1, 0, 0], "size": [0.2] * 3}], 9),
     "hollow ball": ([{"type": "bounce_sphere", "sphere_radius": 2.5, "inside": True}], -3.0),
     "hollow box": ([{"type": "bounce_box", "size": [4.4, 4.4, 4.4], "inside": True}], -3.0),
     "tilted ceiling": ([{"type": "bounce_plane", "point": [0, 2.2, 0], "normal": [0.3, -1, 0]}], -5.0),
