@@ -143,6 +143,8 @@ class Lives:
         """Run a program, and again those who wait for another run, gathered with their like, until none waits."""
         places, given = np.arange(len(rows)), by_place
         particles.carried += len(rows)
+        if "resting" in particles.store.columns:
+            particles.carried -= int(np.count_nonzero(particles.store.column("resting")[0][rows]))
         for _ in range(MOST_ROUNDS):
             self.programs.run(made, particles, interval, rows[places], by_place=given)
             if kept and "knots" in made.program.stores:

@@ -54,8 +54,8 @@ class Bends:
 class Particles:
     """One source's particles.
 
-    `carried` counts particles and frames in which they took steps of their own, `turns` those steps, refused ones too,
-    `failed` those who found none short enough, and `unfinished` who met surfaces too often.
+    `carried` counts particles and frames in which they took steps of their own, those at rest left out, `turns` those
+    steps, refused ones too, `failed` those who found none short enough, and `unfinished` who met surfaces too often.
     `dying` are the rows whose life ended in the interval before the frame; they are removed as the next begins.
     `born` are the rows that began a life in it, at the times `born_at`; `ended_at` says when the dying did.
     Pictures look back to `since` [s]: `bends` are hits after that, and `past` holds those whose lives ended after it and

@@ -46,7 +46,7 @@ class Trial:
 
     All preparation is done before, and taking the states is not counted.
 
-    `evaluations` are force evaluations of each particle in each frame, on average; `restless` counts contacts that were
+    `evaluations` are force evaluations of each moving particle in each frame, on average; `restless` counts contacts that were
     given up.
     """
 

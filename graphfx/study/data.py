@@ -52,7 +52,7 @@ FIELDS = {
     "results[].failures.escaped": "that are farther from their true place than all true places lie apart",
     "results[].failures.capped": "that the method gave up",
     "results[].failures.restless": "contacts that were given up, and ended in rest",
-    "results[].evaluations": "force evaluations of each particle in each frame, on average; for fixed steps their number",
+    "results[].evaluations": "force evaluations of each moving particle in each frame, on average; for fixed steps their number",
     "results[].seconds": "processor time of one run on one thread, to the last frame compared",
     "results[].seconds.runs": "of each round [s]",
     "results[].seconds.low": "first quartile [s]",

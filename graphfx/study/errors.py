@@ -119,7 +119,9 @@ def quantile(ascending: np.ndarray, share: float) -> float:
 
 
 def observed_order(work: list[float], errors: list[float], least: float, most: float = np.inf) -> float | None:
-    """Return p of error ~ work^-p by least squares over the points between `least` and `most`, None for fewer than two.
+    """Return p of error ~ work^-p by least squares over the points between `least` and `most`.
+
+    None where they are fewer than two, or the most work of them is not twice the least.
 
     What has more work than the point of least error is left out, since there rounding rules; of more than four the four
     with the most work count, which are nearest to the limit.
@@ -127,7 +129,7 @@ def observed_order(work: list[float], errors: list[float], least: float, most: f
     known = sorted((w, e) for w, e in zip(work, errors, strict=True) if np.isfinite(e) and w > 0)
     best = min(known, key=lambda point: point[1], default=(0.0, 0.0))[0]
     points = [(np.log(w), np.log(e)) for w, e in known if least < e < most and w <= best][-4:]
-    if len({x for x, _ in points}) < 2:
+    if len(points) < 2 or points[-1][0] - points[0][0] < 0.99 * np.log(2):
         return None
     x, y = np.array(points).T
     x = x - x.mean()

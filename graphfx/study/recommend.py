@@ -43,8 +43,8 @@ def advice(study: Study) -> Advice:
     cheaper = [each for each in ran if cost(each)[:1] < cost(best)[:1] and each.candidate.family == best.candidate.family
                and each.candidate.precision == best.candidate.precision]
     reason = (f"95 % of its errors are below {length(best.errors.p95)}, within the tolerance of {length(tolerance)}, for "
-              f"{best.evaluations:.3g} evaluations of each particle in a frame: the fewest of the {len(good)} settings that "
-              f"keep it, of {len(ran)} tried")
+              f"{best.evaluations:.3g} evaluations of each moving particle in a frame: the fewest of the {len(good)} settings "
+              f"that keep it, of {len(ran)} tried")
     if cheaper:
         next_ = max(cheaper, key=cost)
         reason += f"; with {next_.candidate.setting} they would be {length(next_.errors.p95)}"

@@ -24,6 +24,10 @@ from graphfx.study.reference import Truth, references, truth_of
 PARTICLES, FRAMES, SECONDS = 1000, 24, 60.0
 """What a study takes, unless told: particles of each source, frames compared, seconds of processor time."""
 MOST_REPEATS = 5
+DEAREST = 0.1
+"""The share of a study's time that no single run may be expected to take."""
+BETTER = 0.9
+"""What an error must fall to, over two smaller tolerances, for still smaller ones to be tried."""
 BASELINE = "sims"
 """The family to whose run of one step, of the same precision and round, run times are told as ratios."""
 
@@ -145,10 +149,25 @@ class Maker:
             before = len(study.left_out), len(study.results)
             yield candidate, number / len(waiting)
             unplanned = len(study.results) > before[1] and study.results[-1].message
-            if len(study.left_out) > before[0] or unplanned:
+            if len(study.left_out) > before[0] or unplanned or self._says_no_more(study, candidate):
                 refused.add((candidate.family, candidate.precision))
         for family, names in late.items():
             study.left_out.append((f"{family}, {', '.join(names)}", "there was no time left; more of it: --seconds"))
+
+    def _says_no_more(self, study: Study, candidate: Candidate) -> bool:
+        """Tell whether the smaller tolerances of a family are left out after one, and say why."""
+        found = study.of(candidate.family.name, candidate.precision)
+        if candidate.tolerance in (None, *candidate.family.tolerances[-1:]) or len(found) < 2:
+            return False
+        before, last = found[-2:]
+        what = f"{candidate.family.name} below {candidate.setting}, {candidate.precision} bits"
+        if last.evaluations > before.evaluations and last.seconds[0] ** 2 / before.seconds[0] > DEAREST * self.seconds:
+            study.left_out.append((what, f"a run takes {last.seconds[0]:.1f} s already; --seconds allows more"))
+            return True
+        if len(found) > 2 and last.errors.p95 > BETTER * found[-3].errors.p95:
+            study.left_out.append((what, "two smaller tolerances before gave no smaller error"))
+            return True
+        return False
 
     def _try(self, study: Study, candidate: Candidate, sample: Sample) -> None:
         """Run a setting once and keep what it came to, or why it did not run."""
