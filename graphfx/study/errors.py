@@ -69,12 +69,13 @@ class Errors:
 class Distances:
     """Distances as they are gathered, with the particles that failed in one way or another."""
 
-    found: list[np.ndarray] = field(default_factory=list)
+    found: dict[int, list[np.ndarray]] = field(default_factory=dict)
+    """By frame."""
     not_finite: set[tuple[str, int]] = field(default_factory=set)
     missing: set[tuple[str, int]] = field(default_factory=set)
     escaped: set[tuple[str, int]] = field(default_factory=set)
 
-    def add(self, source: str, true: States, other: States, extent: float) -> None:
+    def add(self, source: str, frame: int, true: States, other: States, extent: float) -> None:
         """Compare the particles of one source at one frame."""
         rows, theirs = matched(true, other)
         keys = keys_of(true)
@@ -88,11 +89,17 @@ class Distances:
         for failed, which in ((self.missing, lost), (self.not_finite, wrong), (self.escaped, away)):
             failed.update((source, int(key)) for key in keys[which])
         distance[lost | wrong | away] = np.inf
-        self.found.append(distance)
+        self.found.setdefault(frame, []).append(distance)
+
+    def by_frame(self, share: float = 0.95) -> dict[int, float]:
+        """Return a quantile of the distances at each frame [m], of those frames that have any."""
+        joined = {frame: np.sort(np.concatenate(found)) for frame, found in self.found.items()}
+        return {frame: quantile(each, share) for frame, each in sorted(joined.items()) if len(each)}
 
     def errors(self, tolerance: float) -> Errors:
         """Return the statistics."""
-        every = np.sort(np.concatenate(self.found)) if self.found else np.zeros(0)
+        parts = [each for found in self.found.values() for each in found]
+        every = np.sort(np.concatenate(parts)) if parts else np.zeros(0)
         if not len(every):
             return Errors()
         finite = every[np.isfinite(every)]

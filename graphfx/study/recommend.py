@@ -57,6 +57,6 @@ def keeps(result: Result, tolerance: float) -> bool:
 
 
 def cost(result: Result) -> tuple[float, int, int, float]:
-    """Return what settings are ordered by: evaluations first, then bits, then the order of the table, then run time."""
+    """Return what settings are ordered by: evaluations to two digits, then bits, then the order of the table, then run time."""
     family = result.candidate.family
-    return result.evaluations, result.candidate.precision, FAMILIES.index(family), quartiles(result.seconds)[1]
+    return float(f"{result.evaluations:.2g}"), result.candidate.precision, FAMILIES.index(family), quartiles(result.seconds)[1]

@@ -65,16 +65,12 @@ class Truth:
     particles: int = 0
     extent: float = 0.0
 
-    def compare(self, states: StatesByFrame, tolerance: float) -> Errors:
-        """Return the errors of other states."""
-        return self.distances(states).errors(tolerance)
-
     def distances(self, states: StatesByFrame) -> Distances:
         """Return how far other states are from these."""
         distances = Distances()
         for source, frames in self.states.items():
             for frame, true in frames.items():
-                distances.add(source, true, states[source][frame], self.extent)
+                distances.add(source, frame, true, states[source][frame], self.extent)
         return distances
 
 
@@ -160,7 +156,7 @@ def truth_of(first: Reference, second: Reference, frames: Sequence[int], toleran
             made.states.setdefault(source, {})[frame] = chosen(states, each)
     for source, by_frame in made.states.items():
         for frame, states in by_frame.items():
-            distances.add(source, states, second.states[source][frame], np.inf)
+            distances.add(source, frame, states, second.states[source][frame], np.inf)
     made.difference = distances.errors(tolerance * AGREED)
     made.particles = sum(map(len, seen.values()))
     made.unknown = sum(len(lost[source] & seen[source]) for source in seen)

@@ -39,6 +39,8 @@ class Result:
     candidate: Candidate
     methods: tuple[str, ...] = ()
     errors: Errors = field(default_factory=Errors)
+    by_frame: dict[int, float] = field(default_factory=dict)
+    """The 95th percentile of the distances at each frame [m]."""
     evaluations: float = 0.0
     seconds: list[float] = field(default_factory=list)
     capped: int = 0
@@ -191,7 +193,8 @@ class Maker:
         except GraphfxError as error:
             result.message = "; ".join(problem.message for problem in error.problems)
             return result
-        result.errors = study.truth.compare(trial.states, study.tolerance)
+        distances = study.truth.distances(trial.states)
+        result.errors, result.by_frame = distances.errors(study.tolerance), distances.by_frame()
         result.evaluations, result.capped, result.restless = trial.evaluations, trial.failed, trial.restless
         result.seconds.append(trial.seconds)
         self.trials.append((result, trials))

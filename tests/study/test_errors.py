@@ -18,7 +18,7 @@ def states(places, ids=None, lives=None) -> States:
 
 def errors_of(true, other, tolerance=1.0, extent=1000.0):
     distances = Distances()
-    distances.add("a", true, other, extent)
+    distances.add("a", 1, true, other, extent)
     return distances.errors(tolerance)
 
 
@@ -39,9 +39,17 @@ def test_failures_are_infinitely_wrong_and_counted_once():
 def test_a_particle_fails_once_however_often_it_is_seen():
     """Failures count particles, not frames."""
     distances = Distances()
-    for _ in range(3):
-        distances.add("a", states([0, 0]), states([np.inf, 0]), 10.0)
+    for frame in range(3):
+        distances.add("a", frame, states([0, 0]), states([np.inf, 0]), 10.0)
     assert distances.errors(1.0).not_finite == 1
+
+
+def test_quantiles_by_frame():
+    """Each frame has its own, over all sources; a frame without particles has none."""
+    distances = Distances()
+    for source, frame, other in (("a", 1, [3]), ("b", 1, [4, 5]), ("a", 2, [7]), ("a", 3, [])):
+        distances.add(source, frame, states([0] * len(other)), states(other), 100.0)
+    assert distances.by_frame() == {1: 5, 2: 7}
 
 
 def test_particles_are_matched_by_id_and_life():

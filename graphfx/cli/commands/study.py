@@ -85,12 +85,14 @@ def _write(study: Study, folder: Path) -> list[Path]:
     """Write the page and the data; return the files."""
     from graphfx.output.atomic import make_folder, whole_file
     from graphfx.study.data import study_data
+    from graphfx.study.page import page
 
-    file = folder / "study.json"
-    make_folder(file)
-    with whole_file(file) as stream:
-        stream.write((json.dumps(study_data(study), indent=2) + "\n").encode())
-    return [file]
+    texts = {"study.html": page(study), "study.json": json.dumps(study_data(study), indent=2) + "\n"}
+    make_folder(folder / "study.html")
+    for name, text in texts.items():
+        with whole_file(folder / name) as stream:
+            stream.write(text.encode())
+    return [folder / name for name in texts]
 
 
 class Telling:
