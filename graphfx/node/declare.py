@@ -120,7 +120,8 @@ class operator:
 
     `neutral=` is a condition on the parameters under which the operator does nothing and is left out;
     `exact_if=` one under which it has an exact form that the engine knows: for a flow with `linear=`, the
-    function of a rate of change (its arguments are among the flow's), that it is then a linear operator;
+    function of a rate of change (its arguments are among the flow's), that it is then a linear operator. One with
+    `linear=` and no `exact_if` is that too where all that acts is linear, and so exact together with it;
     `branches=True` runs it lane by lane, thirteen times slower, so that its body may use `if`.
     """
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphfx.motion import basic, linear, spring
+from graphfx.plan.matrix_motion import MatrixMotion
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import Mover
 from graphfx.plan.values import folded_call
@@ -31,6 +32,7 @@ class Coefficients:
     turning: Operand | None = None
     stiffness: Operand | None = None
     applied: Operand | None = None
+    matrix: MatrixMotion | None = None
 
 
 @dataclass
@@ -48,6 +50,12 @@ class LinearMotion:
     noise: WhiteNoise
     _cached: dict[tuple[int, int], Terms] = field(default_factory=dict)
 
+    @property
+    def matrix(self) -> MatrixMotion | None:
+        """Return the motion by the exponential of a matrix, where the operators have that form."""
+        linear = [mover for mover in self.movers if mover.role == "linear"]
+        return MatrixMotion(linear) if any(mover.matrix for mover in linear) else None
+
     def prepare(self, moment: Moment, state: State) -> None:
         """Write, once for all steps, the terms that stay the same."""
         for mover in self.movers:
@@ -60,7 +68,7 @@ class LinearMotion:
 
     def coefficients(self, moment: Moment, state: State, cell: int = 0) -> Coefficients:
         """Write the sum of all terms; noise is that of the `cell`-th cell that the step meets."""
-        total = Coefficients()
+        total = Coefficients(matrix=self.matrix)
         for mover in self.movers:
             for name, term in self.terms(mover, moment, state, cell).items():
                 before = getattr(total, name)
@@ -99,6 +107,9 @@ class LinearMotion:
             given = self.arguments(mover, moment, state, {"position": position, "velocity": velocity})
             return folded_call(builder, moment.writer.precision, mover.function, *given, name=mover.node.node_type.name)
 
+        if mover.matrix is not None:
+            name = "constant" if mover.writes_velocity else "applied"
+            return {name: evaluate(ZERO, ZERO)} if mover.matrix.constant else {}
         if mover.form is None:
             return {"applied": evaluate(ZERO, ZERO)}
         form, found = mover.form, {}
@@ -126,6 +137,9 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -
     builder.note = "linear motion"
     position, velocity = state.position, state.velocity
     assert isinstance(position, Column)
+    if total.matrix is not None:
+        total.matrix.write(moment, state, total.applied, total.constant, dt)
+        return
     if total.stiffness is not None:
         _write_spring(moment, state, total, dt)
         return

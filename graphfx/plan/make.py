@@ -14,6 +14,7 @@ from graphfx.plan.ends import EndWriter
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
 from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
+from graphfx.plan.matrix_form import gathered
 from graphfx.plan.method import cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
@@ -170,6 +171,7 @@ class _Planner:
             exposure = replace(exposure, instants=())
         movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+        movers = gathered(movers, attributes.constants, flat.time.method, has_velocity)
         choice = choose_method(movers, flat, has_velocity)
         cells = cells_met(movers, flat.time, choice.method)
         motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)

@@ -45,7 +45,7 @@ class Moment:
     `cell_time` gives a time of the p-th cell of noise that the step meets, see `motion.clock.cell_time`; `born` when a
     particle was born, where that may be within the step. All are from the start of the frame [s]. `opening` and `closing`
     are writers whose clock stands at the step's begin and end. `part` gives the number-th of `count` equal parts of it. A
-    step known to lie in one cell has its number as `cell`.
+    step known to lie in one cell has its number as `cell`. It is the `k`-th of its frame, or lies in that.
     """
 
     builder: Builder
@@ -60,6 +60,8 @@ class Moment:
     part: Callable[[int, int], Moment]
     cell: int | None = None
     born: Callable[[], Operand] | None = None
+    made: FrameProgram | None = None
+    k: int = 0
 
 
 @dataclass
@@ -170,6 +172,8 @@ class Moments:
             lambda: self.fixed(builder, name("start", 0), state),
             lambda: self.fixed(builder, name("end", 2), state),
             lambda j, n: self.whole_step(builder, k, state, j, n),
+            made=made,
+            k=k,
         )
 
     def fixed(self, builder: Builder, time: Any, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
@@ -213,6 +217,8 @@ class Moments:
             part,
             cell,
             lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
+            self.made,
+            k,
         )
 
     def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:

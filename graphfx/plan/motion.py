@@ -79,6 +79,11 @@ class Motion:
                     moment.writer.shared[id(value)] = moment.writer.argument(value)
         self.linear.prepare(moment, state)
 
+    @property
+    def is_brownian(self) -> bool:
+        """Return whether any noise is Brownian."""
+        return any(mover.is_brownian for mover in self.of("noise"))
+
     def prepare_step(self, moment: Moment) -> None:
         """Write, once for all who go parts of a step, the Brownian noise of it."""
         cells = (WHOLE_STEP,) if self.method == "sims" else range(self.cells)
@@ -186,7 +191,7 @@ class Motion:
     def _apply_paper(self, mover: Mover, moment: Moment, state: State) -> None:
         """Write V' = V + rate dt for a flow that has a rate, but not beyond where it leads; else what is done elsewhere."""
         linear = linear_form(mover)
-        if linear is None:
+        if linear is None or not mover.writes_velocity:
             self._apply(mover, moment, state, moment.dt)
             return
         moment.builder.note = mover.node.path

@@ -161,8 +161,9 @@ class FrameWriter:
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
-            going = builder.under(turn.going(builder, finish))
-            self.motion.prepare_step(moments.own_step(going, k, now, now, state))
+            if self.motion.is_brownian:
+                going = builder.under(turn.going(builder, finish))
+                self.motion.prepare_step(moments.own_step(going, k, now, now, state))
             if pacing is not None:
                 self._paced_turns(builder, moments, k, turn, pacing, finish)
             else:

@@ -9,7 +9,12 @@ from graphfx.math import Vec3, exp
 from graphfx.node import operator, param
 
 
-@operator.flow(writes="position", neutral="rate == 0")
+def growing(position: Vec3, center: Vec3, rate: float) -> Vec3:
+    """Return the rate of change of the position."""
+    return (position - center) * rate
+
+
+@operator.flow(writes="position", neutral="rate == 0", linear=growing)
 def scale(
     position: Vec3,
     dt: float,
