@@ -10,6 +10,7 @@ from graphfx.motion import basic, linear, spring
 from graphfx.plan.matrix_motion import MatrixMotion
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import Mover
+from graphfx.plan.rounding import way_of
 from graphfx.plan.values import folded_call
 from graphfx.plan.white_noise import WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
@@ -55,6 +56,11 @@ class LinearMotion:
         """Return the motion by the exponential of a matrix, where the operators have that form."""
         linear = [mover for mover in self.movers if mover.role == "linear"]
         return MatrixMotion(linear) if any(mover.matrix for mover in linear) else None
+
+    @property
+    def springs(self) -> bool:
+        """Return whether what it does depends on the place."""
+        return self.matrix is not None or any(mover.form is not None and mover.form.stiffness for mover in self.movers)
 
     def prepare(self, moment: Moment, state: State) -> None:
         """Write, once for all steps, the terms that stay the same."""
@@ -131,8 +137,8 @@ class LinearMotion:
         return found
 
 
-def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:
-    """Write the exact flow of a linear motion over dt."""
+def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand, keeps: bool = False) -> None:
+    """Write the exact flow of a linear motion over dt; with `keeps` what rounding takes from the place is kept."""
     builder = moment.builder
     builder.note = "linear motion"
     position, velocity = state.position, state.velocity
@@ -143,7 +149,8 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -
     if total.stiffness is not None:
         _write_spring(moment, state, total, dt)
         return
-    both: Any = (position, velocity)
+    way = way_of(state, keeps)
+    both: Any = (way, velocity)
     constant = total.constant or ZERO
     if total.turning is not None and total.constant is None and total.damping is None:
         factors = builder.call(linear.spin_factors, total.turning, dt, name="factor")
@@ -155,9 +162,11 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -
     elif total.constant is not None:
         builder.call(linear.fall, *both, constant, dt, into=both)
     elif velocity is not None:
-        builder.call(basic.advance, position, velocity, dt, into=position)
+        builder.call(basic.advance, way, velocity, dt, into=way)
     if total.applied is not None:
-        builder.call(basic.advance, position, total.applied, dt, into=position)
+        builder.call(basic.advance, way, total.applied, dt, into=way)
+    if keeps:
+        builder.call(basic.joined, position, way, into=(position, way))
 
 
 def _write_spring(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:

@@ -20,6 +20,7 @@ from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.pacing import SHARE
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
+from graphfx.plan.rounding import REMAINDER
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.shutter import Exposure, exposure_of
 from graphfx.plan.sources import Sources
@@ -177,6 +178,9 @@ class _Planner:
         motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
         if choice.scheme.paced:
             attributes.store(SHARE, "float", "how long its steps are", "float")
+        motion.keeps = precision == 64 and motion.may_keep and "position" in attributes.columns and not holder.places_again
+        if motion.keeps:
+            attributes.store(REMAINDER, "vec3", "what rounding took from the position", "vec3")
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity
