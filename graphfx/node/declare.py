@@ -23,7 +23,7 @@ RESPONSE = (
     Parameter("resilience", "float", 0.5, "", 0.0, 1.0, (), "Share of the speed across the surface that a bounce gives back."),
     Parameter("friction", "float", 0.0, "", 0.0, 1.0, (), "Share of the speed along the surface that a bounce takes."),
     Parameter("friction_threshold", "float", 0.0, "m/s", 0.0, None, (), "Friction does not act on a particle slower than this."),
-    Parameter("rest_speed", "float", 0.01, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest."),
+    Parameter("rest_speed", "float", 0.0, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest at once."),
     Parameter("event_speed", "float", 0.1, "m/s", 0.0, None, (), "A slower hit is no event, unless it ends in rest."),
     Parameter("response", "string", "bounce", "", None, None, ("bounce", "stick", "slide", "die"), "What it does at a hit."),
 )
