@@ -20,17 +20,17 @@ from graphfx.cook import warm
 from graphfx.cook.cameras import check_views
 from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
-from graphfx.cook.far import FarAway
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.movies import movie_file, open_movies
+from graphfx.cook.pilot import planned
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer
-from graphfx.errors import OutputError, Problem, UsageError
+from graphfx.errors import OutputError, UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
-from graphfx.plan.make import Plan, make_plan
+from graphfx.plan.make import Plan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -40,7 +40,7 @@ class FrameReport:
     """What is told of a cooked frame.
 
     `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
-    within one step that they were brought to rest (counted since the start). `warnings` are told once in a cook.
+    within one step that they were brought to rest (counted since the start).
     """
 
     frame: int
@@ -49,7 +49,6 @@ class FrameReport:
     dropped: int
     restless: int
     files: tuple[Path, ...]
-    warnings: tuple[Problem, ...] = ()
 
 
 class Effect:
@@ -61,7 +60,7 @@ class Effect:
     @cached_property
     def plan(self) -> Plan:
         """What will run."""
-        return make_plan(self.flat)
+        return planned(self.flat)
 
     @property
     def frames(self) -> list[int]:
@@ -102,7 +101,7 @@ class Effect:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
-        writer, far = Writer(self.plan, threads, limits.memory), FarAway()
+        writer = Writer(self.plan, threads, limits.memory)
         with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]):
@@ -124,15 +123,12 @@ class Effect:
                 jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path], frame)
                         for image in self.plan.stills]
                 jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
-                warnings = tuple(far.warnings(simulation, frame))
-                waiting = self._report(frame, simulation, list(films.values()), list(stills.values()), warnings), jobs
+                waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
             if waiting is not None:
                 yield _finished(*waiting)
 
     @staticmethod
-    def _report(
-        frame: int, simulation: Simulation, films: list[Film], files: list[Path], warnings: tuple[Problem, ...]
-    ) -> FrameReport:
+    def _report(frame: int, simulation: Simulation, films: list[Film], files: list[Path]) -> FrameReport:
         particles = simulation.particles.values()
         return FrameReport(
             frame,
@@ -141,7 +137,6 @@ class Effect:
             sum(film.dropped for film in films),
             sum(each.unfinished for each in particles),
             tuple(files),
-            warnings,
         )
 
     def _checked(self, frames: list[int]) -> list[int]:

@@ -6,7 +6,7 @@ Particles are told apart by (source, id, life), which no method changes.
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -22,6 +22,7 @@ from graphfx.graph.names import PICTURES
 from graphfx.graph.values import Literal
 from graphfx.motion.clock import Clock
 from graphfx.plan.make import Plan, make_plan
+from graphfx.plan.method import Choice
 
 MEASURED = ("id", "lives", "position", "velocity")
 
@@ -53,9 +54,16 @@ class Trial:
     states: dict[str, dict[int, States]] = field(default_factory=dict)
     seconds: float = 0.0
     evaluations: float = 0.0
+    work: dict[str, float] = field(default_factory=dict)
+    """Evaluations by source."""
     restless: int = 0
-    failed: int = 0
-    """Particles that a method reported it could not carry."""
+    failures: dict[str, int] = field(default_factory=dict)
+    """How many times a method could not carry a particle further in a frame, by source."""
+
+    @property
+    def failed(self) -> int:
+        """Return how many times a method reported that it could not carry a particle."""
+        return sum(self.failures.values())
 
 
 @dataclass
@@ -65,12 +73,13 @@ class Trials:
     flat: FlatGraph
     sample: Sample | None = None
     threads: int = 1
+    choices: Mapping[str, Choice] | None = None
     plan: Plan = field(init=False)
     executor: BlockExecutor = field(init=False)
 
     def __post_init__(self) -> None:
         """Make the plan; raise GraphError where the method cannot carry the graph."""
-        self.plan = make_plan(without_shutters(self.flat), measured=MEASURED)
+        self.plan = make_plan(without_shutters(self.flat), measured=MEASURED, choices=self.choices)
         self.executor = BlockExecutor(self.plan.precision, self.threads)
 
     def simulation(self, sample: Sample | None = None) -> Simulation:
@@ -92,9 +101,10 @@ class Trials:
                     begun += time.process_time() - paused
         made.seconds = time.process_time() - begun
         made.restless = sum(particles.unfinished for particles in simulation.particles.values())
-        made.failed = sum(particles.failed for particles in simulation.particles.values())
-        moving = [particles for particles in simulation.particles.values() if particles.plan.own is not None]
-        made.evaluations = float(np.mean([self._evaluations(particles) for particles in moving])) if moving else 0.0
+        made.failures = {path: particles.failed for path, particles in simulation.particles.items()}
+        moving = {path: each for path, each in simulation.particles.items() if each.plan.own is not None}
+        made.work = {path: self._evaluations(particles) for path, particles in moving.items()}
+        made.evaluations = float(np.mean(list(made.work.values()))) if moving else 0.0
         return made
 
     def _evaluations(self, particles: Particles) -> float:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
+from heapq import heappop, heappush
 from typing import Any
 
 import numpy as np
@@ -13,7 +13,8 @@ from graphfx.machine.draw import draw_kernel
 from graphfx.machine.kernels import DTYPES, kernel_of
 from graphfx.machine.loop import CALL, DEPTH, LOOP
 from graphfx.machine.transfer import BLOCK
-from graphfx.program import COMPONENTS, Call, Draw, Loop, Operand, Program, Uniform
+from graphfx.program import COMPONENTS, Draw, Loop, Operand, Program, Uniform
+from graphfx.program.spans import Span, spans_of
 
 CALL_HEADER = 3
 
@@ -55,31 +56,6 @@ class Assembled:
                 scratch[place + k * self.lanes : place + (k + 1) * self.lanes] = number
 
 
-def _operands_of(instruction: Any) -> Iterable[Operand]:
-    if isinstance(instruction, Call):
-        return (*instruction.operands, *instruction.results, instruction.mask)
-    if isinstance(instruction, Draw):
-        return (instruction.identity, instruction.life, instruction.cell, instruction.result, instruction.mask)
-    return (instruction.mask, *(o for inner in instruction.body for o in _operands_of(inner)))
-
-
-def _spans(program: Program) -> dict[int, tuple[Operand, int, int]]:
-    """Return first and last use of every column, counted in outermost instructions."""
-    spans: dict[int, tuple[Operand, int, int]] = {}
-    end = len(program.body)
-    for column in program.loads.values():
-        spans[id(column)] = (column, 0, 0)
-    for index, instruction in enumerate(program.body):
-        for operand in _operands_of(instruction):
-            first = spans[id(operand)][1] if id(operand) in spans else index
-            spans[id(operand)] = (operand, first, index)
-    kept = [*program.stores.values(), program.context, *([program.rejects] if program.rejects else [])]
-    for column in kept:
-        first = spans[id(column)][1] if id(column) in spans else 0
-        spans[id(column)] = (column, first, end)
-    return spans
-
-
 class _Places:
     """Hands out places, and takes back those of columns that are read no more."""
 
@@ -103,8 +79,8 @@ class _Places:
 def assemble(program: Program, precision: int = 32) -> Assembled:
     """Give places and write code; kernels that were never compiled are compiled here."""
     lanes = FLOAT_LANES[DTYPES[precision]]
-    spans = _spans(program)
-    uniforms = [operand for operand, _, _ in spans.values() if isinstance(operand, Uniform)]
+    spans = spans_of(program)
+    uniforms = [span.operand for span in spans.values() if isinstance(span.operand, Uniform)]
     places: dict[int, int] = {}
     splats, mask_lanes = _Places(0, lanes), _Places(BLOCK, BLOCK)
     same: dict[Any, int] = {}
@@ -128,19 +104,23 @@ def assemble(program: Program, precision: int = 32) -> Assembled:
     return made
 
 
-def _place_columns(spans: Any, places: dict[int, int], columns: _Places, masks: _Places, program: Program) -> None:
-    waiting = sorted((first, order, key) for order, (key, (operand, first, _)) in enumerate(spans.items())
-                     if not isinstance(operand, Uniform) and operand is not program.context)
-    busy: list[tuple[int, int]] = []
-    for first, _, key in waiting:
-        for last, other in [entry for entry in busy if entry[0] < first]:
-            busy.remove((last, other))
-            operand = spans[other][0]
-            (masks if operand.type == "bool" else columns).give(places[other], max(COMPONENTS[operand.type], 1))
-        operand, _, last = spans[key]
-        target = masks if operand.type == "bool" else columns
-        places[key] = target.take(max(COMPONENTS[operand.type], 1))
-        busy.append((last, key))
+def _place_columns(
+    spans: dict[int, Span], places: dict[int, int], columns: _Places, masks: _Places, program: Program
+) -> None:
+    """Give places in the order of first needs; one that is needed no more is the next one's of its size."""
+    waiting = sorted(
+        (span.first, order, key)
+        for order, (key, span) in enumerate(spans.items())
+        if not isinstance(span.operand, Uniform) and span.operand is not program.context
+    )
+    busy: list[tuple[int, int, int]] = []
+    for first, order, key in waiting:
+        while busy and busy[0][0] < first:
+            operand = spans[(ended := heappop(busy))[2]].operand
+            (masks if operand.type == "bool" else columns).give(places[ended[2]], max(COMPONENTS[operand.type], 1))
+        operand = spans[key].operand
+        places[key] = (masks if operand.type == "bool" else columns).take(max(COMPONENTS[operand.type], 1))
+        heappush(busy, (spans[key].last, order, key))
 
 
 def _read(operand: Operand, places: dict[int, int]) -> list[int]:

@@ -1,7 +1,7 @@
 """Steps of a particle's own: how far its next one goes, by the error of the last. Scalar functions for one particle.
 
 A step is `share` of the longest one, a power of 1/2. Its error is estimated from two results of different orders; it is
-allowed `tolerance` times its length, and what rounding hides. Errors of a lower order q in the step shrink 2^q times
+allowed `tolerance` times its length, or what rounding hides. Errors of a lower order q in the step shrink 2^q times
 faster than what is allowed as a step is halved, which says how often to halve it.
 [Hairer, Norsett and Wanner 1993, II.4; dyadic steps: none is a sum of rounded times]
 """
@@ -57,11 +57,15 @@ def share_of(stored: Any) -> Any:
     return where(stored > 0.0, stored, stored + 1.0)
 
 
-@MOTION.function("vec3 vec3 float float float float", "float")
-def allowed_error(position: Any, velocity: Any, dt: Any, longest: Any, tolerance: Any, resolution: Any) -> Any:
-    """tolerance dt [m], or what rounding hides: `resolution` of the place and of a way of `longest`, if that is more."""
+@MOTION.function("vec3 vec3 float float float", "float")
+def hidden_error(position: Any, velocity: Any, longest: Any, share: Any, resolution: Any) -> Any:
+    """What rounding hides [m]: `resolution` of the place and of a way of `longest`.
+
+    It counts 16 times where steps have become 64 times shorter without an error as small as that: such an error is
+    hardly one of the step.
+    """
     size = maximum(maximum(absolute(position.x), absolute(position.y)), absolute(position.z))
-    return maximum(tolerance * dt, (size + length(velocity) * longest) * resolution)
+    return (size + length(velocity) * longest) * (resolution * where(share < 0.015625, 16.0, 1.0))
 
 
 @MOTION.function("vec3 vec3 float", "float")
@@ -70,16 +74,19 @@ def size_of_error(position: Any, velocity: Any, longest: Any) -> Any:
     return length(position) + length(velocity) * longest
 
 
-@MOTION.function("float float float float float float float", "bool bool float")
-def judged(error: Any, allowed: Any, dt: Any, longest: Any, share: Any, finest: Any, steep: Any) -> Any:
+@MOTION.function("float float float float float float float float", "bool bool float")
+def judged(
+    error: Any, hidden: Any, tolerance: Any, dt: Any, longest: Any, share: Any, finest: Any, steep: Any
+) -> Any:
     """Return whether a step is accepted, whether to give up, and the share of the longest step to take next.
 
-    `steep` is 2^q. A step that failed by more than that is divided by 4, by more than its square or with no number for
-    an error by 8. The next one is twice as long where its error would still be a quarter of what is allowed.
+    An error of tolerance dt is allowed, or what rounding hides. `steep` is 2^q. A step that failed by more than that is
+    divided by 4, by more than its square or with no number for an error by 8. The next one is twice as long where its
+    error would still be a quarter of what is allowed, or is hidden by rounding.
     """
-    ratio = error / allowed
+    ratio = error / maximum(tolerance * dt, hidden)
     accepted = ratio <= 1.0
-    spare = (ratio * (steep * 4.0) <= 1.0) & (dt >= share * longest * 0.875)
+    spare = ((ratio * (steep * 4.0) <= 1.0) | (error <= hidden)) & (dt >= share * longest * 0.875)
     factor = where(ratio <= steep, 0.5, where(ratio <= steep * steep, 0.25, 0.125))
     longer, shorter = minimum(share * 2.0, 1.0), maximum(share * factor, finest)
     return accepted, ~accepted & (share <= finest), where(accepted, where(spare, longer, share), shorter)

@@ -7,10 +7,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphfx.motion import basic, linear, spring
-from graphfx.plan.matrix_motion import MatrixMotion
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import Mover
-from graphfx.plan.rounding import way_of
 from graphfx.plan.values import folded_call
 from graphfx.plan.white_noise import WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
@@ -33,7 +31,6 @@ class Coefficients:
     turning: Operand | None = None
     stiffness: Operand | None = None
     applied: Operand | None = None
-    matrix: MatrixMotion | None = None
 
 
 @dataclass
@@ -51,17 +48,6 @@ class LinearMotion:
     noise: WhiteNoise
     _cached: dict[tuple[int, int], Terms] = field(default_factory=dict)
 
-    @property
-    def matrix(self) -> MatrixMotion | None:
-        """Return the motion by the exponential of a matrix, where the operators have that form."""
-        linear = [mover for mover in self.movers if mover.role == "linear"]
-        return MatrixMotion(linear) if any(mover.matrix for mover in linear) else None
-
-    @property
-    def springs(self) -> bool:
-        """Return whether what it does depends on the place."""
-        return self.matrix is not None or any(mover.form is not None and mover.form.stiffness for mover in self.movers)
-
     def prepare(self, moment: Moment, state: State) -> None:
         """Write, once for all steps, the terms that stay the same."""
         for mover in self.movers:
@@ -74,7 +60,7 @@ class LinearMotion:
 
     def coefficients(self, moment: Moment, state: State, cell: int = 0) -> Coefficients:
         """Write the sum of all terms; noise is that of the `cell`-th cell that the step meets."""
-        total = Coefficients(matrix=self.matrix)
+        total = Coefficients()
         for mover in self.movers:
             for name, term in self.terms(mover, moment, state, cell).items():
                 before = getattr(total, name)
@@ -93,7 +79,7 @@ class LinearMotion:
         builder = self.conditions(mover, moment)
         found = self._noise(mover, moment, state, cell) if mover.role == "noise" else self._linear(mover, moment, state, builder)
         if mover.node.during is not None or mover.node.only is not None:
-            found = {name: _zero_outside(moment.builder, builder, term) for name, term in found.items()}
+            found = {name: zero_outside(moment.builder, builder, term) for name, term in found.items()}
         if fixed:
             self._cached[key] = found
         return found
@@ -113,9 +99,6 @@ class LinearMotion:
             given = self.arguments(mover, moment, state, {"position": position, "velocity": velocity})
             return folded_call(builder, moment.writer.precision, mover.function, *given, name=mover.node.node_type.name)
 
-        if mover.matrix is not None:
-            name = "constant" if mover.writes_velocity else "applied"
-            return {name: evaluate(ZERO, ZERO)} if mover.matrix.constant else {}
         if mover.form is None:
             return {"applied": evaluate(ZERO, ZERO)}
         form, found = mover.form, {}
@@ -137,20 +120,16 @@ class LinearMotion:
         return found
 
 
-def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand, keeps: bool = False) -> None:
-    """Write the exact flow of a linear motion over dt; with `keeps` what rounding takes from the place is kept."""
+def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:
+    """Write the exact flow of a linear motion over dt."""
     builder = moment.builder
     builder.note = "linear motion"
     position, velocity = state.position, state.velocity
     assert isinstance(position, Column)
-    if total.matrix is not None:
-        total.matrix.write(moment, state, total.applied, total.constant, dt)
-        return
     if total.stiffness is not None:
         _write_spring(moment, state, total, dt)
         return
-    way = way_of(state, keeps)
-    both: Any = (way, velocity)
+    both: Any = (position, velocity)
     constant = total.constant or ZERO
     if total.turning is not None and total.constant is None and total.damping is None:
         factors = builder.call(linear.spin_factors, total.turning, dt, name="factor")
@@ -162,11 +141,9 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand, k
     elif total.constant is not None:
         builder.call(linear.fall, *both, constant, dt, into=both)
     elif velocity is not None:
-        builder.call(basic.advance, way, velocity, dt, into=way)
+        builder.call(basic.advance, position, velocity, dt, into=position)
     if total.applied is not None:
-        builder.call(basic.advance, way, total.applied, dt, into=way)
-    if keeps:
-        builder.call(basic.joined, position, way, into=(position, way))
+        builder.call(basic.advance, position, total.applied, dt, into=position)
 
 
 def _write_spring(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:
@@ -218,7 +195,7 @@ def _folded_under(builder: Builder, moment: Moment, function: Any, *operands: An
     return folded_call(builder, moment.writer.precision, function, *operands, name=name)
 
 
-def _zero_outside(builder: Builder, inside: Builder, term: Operand) -> Operand:
+def zero_outside(builder: Builder, inside: Builder, term: Operand) -> Operand:
     """Return a term that is zero where the operator does not act."""
     vector = term.type == "vec3"
     copy = basic.copy_of(term.type)

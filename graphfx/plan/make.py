@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -14,13 +15,11 @@ from graphfx.plan.ends import EndWriter
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
 from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
-from graphfx.plan.matrix_form import gathered
-from graphfx.plan.method import cells_met, choose_method
+from graphfx.plan.method import Choice, cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.pacing import SHARE
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
-from graphfx.plan.rounding import REMAINDER
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.shutter import Exposure, exposure_of
 from graphfx.plan.sources import Sources
@@ -115,12 +114,15 @@ class Plan:
         return self.flat.time.precision
 
 
-def make_plan(flat: FlatGraph, *, prune: bool = True, measured: tuple[str, ...] = ()) -> Plan:
+def make_plan(
+    flat: FlatGraph, *, prune: bool = True, measured: tuple[str, ...] = (), choices: Mapping[str, Choice] | None = None
+) -> Plan:
     """Plan a flattened graph.
 
     `prune=False` keeps what could be left out, to show that it changes no byte: nodes that no output needs, attributes
     that nothing reads, operators that act outside the simulated time. Those that do nothing are left out either way.
-    `measured` attributes are stored of all sources, where they differ.
+    `measured` attributes are stored of all sources, where they differ. `choices` are what the method `auto` comes to, by
+    source; where there is none, it is one symmetric step for each of the graph's.
     """
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
@@ -130,7 +132,7 @@ def make_plan(flat: FlatGraph, *, prune: bool = True, measured: tuple[str, ...] 
     movies = [MoviePlan(node, images[node.references["image"]]) for node in outputs if node.node_type.role == "movie"]
     holders = find_holders(sources)
     check_names(holders, flat)
-    planner = _Planner(flat, list(images.values()), holders, prune, measured)
+    planner = _Planner(flat, list(images.values()), holders, prune, measured, choices or {})
     emitters = {path: planner.emitter(path) for path in reversed(holders)}
     return Plan(flat, schedule, {path: emitters[path] for path in holders}, list(images.values()), movies)
 
@@ -139,8 +141,15 @@ class _Planner:
     """Plans sources, children before their parents, since those must store what children read."""
 
     def __init__(
-        self, flat: FlatGraph, images: list[ImagePlan], holders: dict[str, Holder], prune: bool, measured: tuple[str, ...]
+        self,
+        flat: FlatGraph,
+        images: list[ImagePlan],
+        holders: dict[str, Holder],
+        prune: bool,
+        measured: tuple[str, ...],
+        choices: Mapping[str, Choice],
     ):
+        self.choices = choices
         self.flat, self.images, self.holders, self.prune, self.measured = flat, images, holders, prune, measured
         self.stored: dict[str, list[str]] = {}
         """What is stored of each source, as far as it is known."""
@@ -172,15 +181,11 @@ class _Planner:
             exposure = replace(exposure, instants=())
         movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
-        movers = gathered(movers, attributes.constants, flat.time.method, has_velocity)
-        choice = choose_method(movers, flat, has_velocity)
+        choice = choose_method(movers, flat, has_velocity, self.choices.get(path))
         cells = cells_met(movers, flat.time, choice.method)
         motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
         if choice.scheme.paced:
             attributes.store(SHARE, "float", "how long its steps are", "float")
-        motion.keeps = precision == 64 and motion.may_keep and "position" in attributes.columns and not holder.places_again
-        if motion.keeps:
-            attributes.store(REMAINDER, "vec3", "what rounding took from the position", "vec3")
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity

@@ -42,16 +42,18 @@ def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
     return most_cells(time.fps, time.preroll, time.substeps)
 
 
-def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> Choice:
+def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Choice | None = None) -> Choice:
     """Return how the motion is computed, and why: the most exact form that the operators allow.
 
-    `drifts` tells whether velocities carry particles beside the operators.
+    `drifts` tells whether velocities carry particles beside the operators; `chosen` is what was tried and found best.
     """
     asked = flat.time.method
     if asked == "sims":
         return Choice("sims", "asked for: the paper's scheme, first order, operations in stack order")
     movers = _acting(movers)
     inner = [mover for mover in movers if mover.role in INNER_ROLES]
+    if asked == "rk45":
+        return _runge_kutta(inner, flat)
     parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
     if not parts or (drifts and not _has_role(movers, *LINEAR_ROLES)):
         parts.insert(0, "free flight")
@@ -71,7 +73,19 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool) -> Choice:
         time = flat.time
         reason = f"{why}: order {time.order} by extrapolation, steps of each particle's own, {time.tolerance:g} m a second"
         return Choice("adaptive", reason + order_one, Scheme(COUNTS[time.order], time.tolerance))
+    if asked == "auto" and chosen is not None:
+        return Choice(chosen.method, f"{why}: {chosen.reason}{order_one}", chosen.scheme)
     return Choice("strang", f"{why}: composed symmetrically, second order{order_one}")
+
+
+def _runge_kutta(inner: list[Mover], flat: FlatGraph) -> Choice:
+    flows = [mover.node for mover in inner if mover.role == "flow"]
+    if flows:
+        message = f"rk45 needs rates of change, and {flows[0].node_type.name} is a flow; choose 'auto' or 'adaptive'"
+        raise GraphError(Problem(message, flows[0].location, f"nodes.{flows[0].path}"))
+    tolerance = flat.time.tolerance
+    reason = f"asked for: Runge-Kutta pair of orders 5 and 4, steps of each particle's own, {tolerance:g} m a second"
+    return Choice("rk45", reason, Scheme(tolerance=tolerance, runge_kutta=True))
 
 
 def _how_exact(movers: list[Mover]) -> str:
@@ -83,8 +97,7 @@ def _how_exact(movers: list[Mover]) -> str:
     if changing:
         when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
         return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
-    matrix = ", by the exponential of a matrix" if any(mover.matrix for mover in movers) else ""
-    return f"one exact step{matrix}{held}"
+    return f"one exact step{held}"
 
 
 def _of_order_one(movers: list[Mover]) -> str:

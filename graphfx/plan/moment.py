@@ -19,6 +19,7 @@ from graphfx.plan.rates import NOUGHT, Scope
 from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Operand, Uniform
 
+NO_TIME = Uniform("0", "float", 0.0)
 ZERO_TIME = Uniform("0", "float", 0.0)
 AGES = ("age", "normalized_age")
 
@@ -45,7 +46,7 @@ class Moment:
     `cell_time` gives a time of the p-th cell of noise that the step meets, see `motion.clock.cell_time`; `born` when a
     particle was born, where that may be within the step. All are from the start of the frame [s]. `opening` and `closing`
     are writers whose clock stands at the step's begin and end. `part` gives the number-th of `count` equal parts of it. A
-    step known to lie in one cell has its number as `cell`. It is the `k`-th of its frame, or lies in that.
+    step known to lie in one cell has its number as `cell`; `instant` gives the instant after a share of a particle's own.
     """
 
     builder: Builder
@@ -60,8 +61,7 @@ class Moment:
     part: Callable[[int, int], Moment]
     cell: int | None = None
     born: Callable[[], Operand] | None = None
-    made: FrameProgram | None = None
-    k: int = 0
+    instant: Callable[[float], Moment] = field(repr=False, default=None)  # type: ignore[assignment]
 
 
 @dataclass
@@ -172,8 +172,6 @@ class Moments:
             lambda: self.fixed(builder, name("start", 0), state),
             lambda: self.fixed(builder, name("end", 2), state),
             lambda j, n: self.whole_step(builder, k, state, j, n),
-            made=made,
-            k=k,
         )
 
     def fixed(self, builder: Builder, time: Any, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
@@ -192,10 +190,15 @@ class Moments:
         """Return a step of each particle's own, from `then` on, within step `k` of the frame, and in a cell if one is given."""
 
         def part(number: int, count: int) -> Moment:
-            share = Uniform(f"{number}/{count}", "float", number / count)
             length = builder.call(pacing.part_of, dt, Uniform(f"1/{count}", "float", 1 / count), name="part") if count > 1 else dt
-            begin = builder.call(pacing.later_by, then, builder.call(pacing.part_of, dt, share)) if number else then
-            return self.own_step(builder, k, begin, length, state, cell)
+            return self.own_step(builder, k, later(number / count), length, state, cell)
+
+        def later(share: float) -> Operand:
+            if share == 0:
+                return then
+            passed = builder.call(pacing.part_of, dt, Uniform(f"{share:.6g}", "float", share), name="passed")
+            made: Operand = builder.call(pacing.later_by, then, passed, name="then")
+            return made
 
         lane = self._lane_clock(builder, k, lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"))
         lane.makers["half"] = lambda: builder.call(basic.half, dt, name="half")
@@ -217,8 +220,7 @@ class Moments:
             part,
             cell,
             lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
-            self.made,
-            k,
+            lambda share: self.own_step(builder, k, later(share), NO_TIME, state, cell),
         )
 
     def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:

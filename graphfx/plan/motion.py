@@ -12,15 +12,15 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from graphfx.graph.values import Literal, Name
-from graphfx.motion import basic
+from graphfx.motion import basic, runge_kutta
 from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_step
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
-from graphfx.plan.rounding import settle
+from graphfx.plan.runge_kutta import write_runge_kutta
 from graphfx.plan.scheme import SIMPLE, Scheme, write_scheme
 from graphfx.plan.white_noise import WHOLE_STEP, WhiteNoise
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Function, Operand, Uniform
 
 FOR_EVER = Uniform("1e9", "float", 1e9)
 """A time after which a flow has led where it leads [s]."""
@@ -42,22 +42,12 @@ class Motion:
     changing: frozenset[str] = frozenset()
     scheme: Scheme = SIMPLE
     linear: LinearMotion = field(init=False)
-    keeps: bool = False
-    """Whether what rounding takes from places is kept."""
 
     def __post_init__(self) -> None:
         """Gather what is summed into the linear motion."""
         parts = [mover for mover in self.movers if mover.role in ("linear", "noise") and not mover.idle]
         noise = WhiteNoise(self.cells)
         self.linear = LinearMotion(parts, self.arguments, self.under_conditions, self.changing, noise)
-
-    @property
-    def may_keep(self) -> bool:
-        """Return whether its ways are the same wherever they begin, so that what rounding takes from places can be kept."""
-        carried = self.has_velocity or any(not mover.writes_velocity for mover in self.linear.movers)
-        alone = self.method == "exact" and any(self.of(role) for role in INNER_ROLES)
-        plain = self.method != "sims" and self.scheme.counts == (1,) and not alone
-        return plain and carried and not self.linear.springs and not self.of("surface")
 
     def of(self, role: str) -> list[Mover]:
         """Return the operators of one role that act at all, in order."""
@@ -90,11 +80,6 @@ class Motion:
                     moment.writer.shared[id(value)] = moment.writer.argument(value)
         self.linear.prepare(moment, state)
 
-    @property
-    def is_brownian(self) -> bool:
-        """Return whether any noise is Brownian."""
-        return any(mover.is_brownian for mover in self.of("noise"))
-
     def prepare_step(self, moment: Moment) -> None:
         """Write, once for all who go parts of a step, the Brownian noise of it."""
         cells = (WHOLE_STEP,) if self.method == "sims" else range(self.cells)
@@ -109,16 +94,9 @@ class Motion:
         """
         if not isinstance(state.position, Column):
             return None
-        errors = write_scheme(self.scheme, moment, state, self._symmetric_step)
-        if self._decays:
-            settle(moment, state, self.linear.springs)
-        return errors
-
-    @property
-    def _decays(self) -> bool:
-        """Return whether anything may bring a speed to nothing."""
-        damped = any(mover.form is not None and mover.form.damping for mover in self.linear.movers)
-        return damped or self.linear.springs or any(mover.carries for mover in self.of("flow"))
+        if self.scheme.runge_kutta:
+            return write_runge_kutta(self, moment, state)
+        return write_scheme(self.scheme, moment, state, self._symmetric_step)
 
     def _symmetric_step(self, moment: Moment, state: State) -> None:
         """Write one step of second order."""
@@ -163,17 +141,17 @@ class Motion:
         coefficients = self.linear.coefficients(moment, state, cell)
         drifts = self.has_velocity or coefficients.applied is not None
         if not inner:
-            write_flow(moment, state, coefficients, moment.dt, self.keeps)
+            write_flow(moment, state, coefficients, moment.dt)
             return
         if drifts:
-            write_flow(moment, state, coefficients, moment.half(), self.keeps)
+            write_flow(moment, state, coefficients, moment.half())
         for mover in inner[:-1]:
             self._apply(mover, moment, state, moment.half())
         self._apply(inner[-1], moment, state, moment.dt)
         for mover in reversed(inner[:-1]):
             self._apply(mover, moment, state, moment.half())
         if drifts:
-            write_flow(moment, state, coefficients, moment.half(), self.keeps)
+            write_flow(moment, state, coefficients, moment.half())
 
     def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""
@@ -203,15 +181,32 @@ class Motion:
         assert isinstance(changed, Column)
         rate = builder.call(mover.function, *operands, name=mover.role)
         if name in mover.arguments and self.method != "sims":
-            middle = builder.call(basic.advance_half, changed, rate, dt, name="half way")
-            operands = self.arguments(mover, moment, state, {"dt": dt, name: middle})
-            rate = builder.call(mover.function, *operands, name=f"{mover.role} half way")
+            rate = self._rate_along(mover, moment, state, builder, name, rate, dt)
         builder.call(basic.advance, changed, rate, dt, into=changed)
+
+    def _rate_along(
+        self, mover: Mover, moment: Moment, state: State, builder: Builder, name: str, first: Column, dt: Operand
+    ) -> Column:
+        """Write the rate of change over dt of what its own rate depends on: that half way; of order 4 to be extrapolated."""
+        changed = state.read(name)
+
+        def rate_after(rate: Column, advance: Function) -> Column:
+            place = builder.call(advance, changed, rate, dt, name="on the way")
+            operands = self.arguments(mover, moment, state, {"dt": dt, name: place})
+            found: Column = builder.call(mover.function, *operands, name=f"{mover.role} on the way")
+            return found
+
+        middle = rate_after(first, basic.advance_half)
+        if len(self.scheme.counts) == 1:
+            return middle
+        again = rate_after(middle, basic.advance_half)
+        made: Column = builder.call(runge_kutta.classical_rate, first, middle, again, rate_after(again, basic.advance))
+        return made
 
     def _apply_paper(self, mover: Mover, moment: Moment, state: State) -> None:
         """Write V' = V + rate dt for a flow that has a rate, but not beyond where it leads; else what is done elsewhere."""
         linear = linear_form(mover)
-        if linear is None or not mover.writes_velocity:
+        if linear is None:
             self._apply(mover, moment, state, moment.dt)
             return
         moment.builder.note = mover.node.path

@@ -83,14 +83,14 @@ class Pacing:
         tolerance = Uniform(f"{self.scheme.tolerance:g}", "float", self.scheme.tolerance)
         resolution = Uniform("4 eps", "float", RESOLUTION[self.precision])
         velocity = state.velocity or zero
-        allowed = builder.call(
-            pacing.allowed_error, state.position, velocity, step, self.longest, tolerance, resolution, name="allowed"
+        hidden = builder.call(
+            pacing.hidden_error, state.position, velocity, self.longest, self.share, resolution, name="hidden"
         )
         finest = Uniform(f"{FINEST[self.precision]:g}", "float", FINEST[self.precision])
         steep = Uniform(f"{self.scheme.steep:g}", "float", self.scheme.steep)
         accepted, fails, share = Column("accepted", "bool"), Column("fails", "bool"), self.share
         builder.call(
-            pacing.judged, error, allowed, step, self.longest, share, finest, steep, into=(accepted, fails, share)
+            pacing.judged, error, hidden, tolerance, step, self.longest, share, finest, steep, into=(accepted, fails, share)
         )
         everywhere = builder.under(builder.program.context)
         everywhere.call(basic.either, self.failed, fails, into=self.failed)

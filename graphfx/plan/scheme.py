@@ -20,10 +20,12 @@ class Scheme:
     """How a step is taken: in `counts` equal symmetric steps; of several counts the results are extrapolated.
 
     `tolerance` is the error allowed in each second of motion where particles have steps of their own [m/s], else 0.
+    `runge_kutta` takes rates of the whole motion at seven instants in place of all that.
     """
 
     counts: tuple[int, ...] = (1,)
     tolerance: float = 0.0
+    runge_kutta: bool = False
 
     @property
     def paced(self) -> bool:
@@ -33,12 +35,12 @@ class Scheme:
     @property
     def evaluations(self) -> int:
         """Return how often forces are evaluated in a step."""
-        return sum(self.counts)
+        return 7 if self.runge_kutta else sum(self.counts)
 
     @property
     def steep(self) -> float:
         """Return by how much the error, against what is allowed, shrinks as a step is halved."""
-        return float(2 ** (2 * len(self.counts) - 2))
+        return 16.0 if self.runge_kutta else float(2 ** (2 * len(self.counts) - 2))
 
 
 SIMPLE = Scheme()

@@ -161,13 +161,12 @@ class FrameWriter:
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
-            if self.motion.is_brownian:
-                going = builder.under(turn.going(builder, finish))
-                self.motion.prepare_step(moments.own_step(going, k, now, now, state))
+            going = turn.going(builder, finish)
+            self.motion.prepare_step(moments.own_step(builder.under(going), k, now, now, state))
             if pacing is not None:
                 self._paced_turns(builder, moments, k, turn, pacing, finish)
             else:
-                left = self._turns(builder, k, turn, finish)
+                left = self._turns(builder, k, turn, finish, going)
                 unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
             if self.fades and resting is not None:
                 turn.rest(builder, k, finish)
@@ -185,9 +184,8 @@ class FrameWriter:
         return made
 
     @staticmethod
-    def _turns(builder: Builder, k: int, turn: Turn, finish: Column) -> Column:
+    def _turns(builder: Builder, k: int, turn: Turn, finish: Column, going: Column) -> Column:
         """Write the turns that carry particles to the end of a step; return who did not come to it."""
-        going = turn.going(builder, finish)
         inner = builder.loop(going, MOST_CONTACTS, "until the particle's end")
         turn.write(inner, k, finish)
         inner.call(basic.both, *[turn.going(inner, finish)] * 2, into=going)

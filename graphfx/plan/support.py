@@ -15,19 +15,11 @@ from graphfx.plan.liveness import values_of
 from graphfx.plan.values import node_function
 
 MOVING_ROLES = ("linear", "flow", "acceleration", "velocity", "noise", "surface")
-METHODS = ("auto", "exact", "strang", "adaptive", "sims")
 
 
 def check_support(flat: FlatGraph, order: list[str]) -> None:
     """Raise GraphError with everything among the nodes that run that cannot be carried out."""
     problems = [problem for path in order for problem in _of_node(flat.nodes[path])]
-    if flat.time.method not in METHODS:
-        problems.append(
-            Problem(
-                f"method '{flat.time.method}' is not carried out by this version; choose one of {', '.join(METHODS)}",
-                path="time.method",
-            )
-        )
     if problems:
         raise GraphError(problems)
 
@@ -79,6 +71,13 @@ def _of_type(node: FlatNode) -> Iterator[Problem]:
             yield Problem(
                 "a noise operator holds what it gives for 1/24 s, and so may not read the position or the velocity; write "
                 "what follows a particle as an acceleration, or as an applied velocity, of a field such as curl_noise",
+                declared.location,
+                name,
+            )
+        elif declared.role == "linear" and declared.writes == ("position",) and {"position", "velocity"} & set(declared.reads):
+            yield Problem(
+                "a linear operator whose rate of the position reads the position or the velocity is not carried out by "
+                "this version; write it as a flow, the exact change over dt",
                 declared.location,
                 name,
             )

@@ -35,7 +35,7 @@ def graph(
         "graphfx": 1,
         "seed": 3,
         **keys,
-        "time": {"fps": 24, "frames": [1, 12], **(time or {})},
+        "time": {"fps": 24, "frames": [1, 12], "method": "strang", **(time or {})},
         "nodes": {
             "sky": {"type": "emit", "rate": 24, "set": FALLING, **(emit or {})},
             **({"act": {"type": "stack", "from": "sky", "ops": list(ops)}} if ops else {}),

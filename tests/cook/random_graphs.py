@@ -130,7 +130,7 @@ class GraphMaker:
                 "frames": [1, 5],
                 "substeps": choose((1, 1, 2)),
                 "preroll": choose((0, 0.1)),
-                "method": choose(("auto", "auto", "sims")),
+                "method": choose(("strang", "strang", "adaptive", "sims")),
                 "precision": choose((32, 64)),
             },
             "nodes": {

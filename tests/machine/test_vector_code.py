@@ -18,6 +18,7 @@ from graphfx.machine.draw import draw_kernel
 from graphfx.machine.kernels import _kernel_of
 from graphfx.motion import spring
 from graphfx.node import Library, library_roots
+from graphfx.plan.make import make_plan
 from graphfx.plan.values import node_function
 from graphfx.program import Call, Draw, Function
 
@@ -37,7 +38,7 @@ pytestmark = pytest.mark.skipif(not (FEATURES.get("avx2") and FEATURES.get("fma"
 def instructions_of(graph: str) -> list[Call | Draw]:
     """Return one instruction of each function in a graph's programs."""
     found: dict[str, Call | Draw] = {}
-    for emitter in load(GRAPHS[graph]).plan.emitters.values():
+    for emitter in make_plan(load(GRAPHS[graph]).flat).emitters.values():
         for program in emitter.programs:
             for step in program.walk():
                 if isinstance(step, (Call, Draw)):

@@ -15,7 +15,7 @@ LIBRARY = Library(library_roots())
 
 
 def effect_of(
-    ops: list[Any], start: Any, velocity: Any = (0, 0, 0), fps: float = 24, frames: int = 24, method: str = "auto", **more: Any
+    ops: list[Any], start: Any, velocity: Any = (0, 0, 0), fps: float = 24, frames: int = 24, method: str = "strang", **more: Any
 ) -> Effect:
     """Return the effect of one particle that is born at `start` as the simulation begins."""
     time = {"fps": fps, "frames": [0, frames], "precision": 64, "method": method}

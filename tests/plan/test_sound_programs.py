@@ -61,7 +61,7 @@ def results_of(instruction: Any) -> list[Any]:
 CASES = [
     (stack, method, substeps, shutter, prune)
     for stack in STACKS
-    for method in ("auto", "sims")
+    for method in ("strang", "adaptive", "sims")
     for substeps, shutter, prune in ((1, 0.5, True), (3, 0.0, True), (2, 1.0, False))
 ]
 

@@ -101,7 +101,6 @@ class Cook:
     done: list[int] = field(default_factory=list)
     dropped: int = 0
     restless: int = 0
-    warnings: list[str] = field(default_factory=list)
     begun: bool = False
 
     def check(self) -> None:
@@ -128,13 +127,11 @@ class Cook:
                 self.done.append(frame.frame)
                 self.dropped += frame.dropped
                 self.restless = frame.restless
-                told = [str(warning) for warning in frame.warnings]
-                self.warnings += told
                 progress.frame(frame)
                 if self.as_json:
                     self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
                                  "dropped": frame.dropped, "restless": frame.restless,
-                                 "files": list(map(str, frame.files)), **({"warnings": told} if told else {})})
+                                 "files": list(map(str, frame.files))})
 
             listeners.append(progress.compiling)
             try:
@@ -153,8 +150,6 @@ class Cook:
 
     def _warn(self) -> None:
         """Tell of particles that the pictures do not show as they should."""
-        for warning in () if self.as_json else self.warnings:
-            click.echo(f"warning: {warning}", err=True)
         if self.dropped:
             click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
         if self.restless:

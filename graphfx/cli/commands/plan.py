@@ -27,12 +27,12 @@ def command(graph: str, source: bool, as_json: bool, parameters: dict[str, str],
     Nodes with the reason why any was dropped, bytes per particle, how the motion is computed, and the
     programs, a line for each instruction: results = function operands [mask] ; node.
     """
+    from graphfx.cook.pilot import planned
     from graphfx.graph.flatten import flatten
     from graphfx.node import Library, library_roots
     from graphfx.plan.listing import listing, plan_data
-    from graphfx.plan.make import make_plan
 
-    plan = make_plan(flatten(graph, Library(library_roots(library)), parameters))
+    plan = planned(flatten(graph, Library(library_roots(library)), parameters))
     if as_json:
         click.echo(json.dumps(plan_data(plan), indent=2))
         return
