@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphfx.lanes import iota, register
+from graphfx.lanes import any_lane, iota, register
 from graphfx.lanes.bits import float_at
 from graphfx.lanes.inner import inner
 from graphfx.math import exp2
@@ -62,6 +62,8 @@ LONG = 64.0
 """Pixels across or down beyond which a segment is clipped."""
 SHORTEST = np.float32(1e-12)
 """Squared length, pixels^2, up to which a segment is a point."""
+SLACK = np.float32(1.001)
+"""So much greater is the square of the reach taken, that rounding never loses a fragment."""
 NOWHERE = np.float32(-np.inf)
 FALL = -SHARPNESS * math.log2(math.e)
 F = np.float32
@@ -187,11 +189,18 @@ def pixel_rows(group):
 
 @inner
 def nearest_point(local, group):
-    """Return t of the closest point of the segment, and the distance to it in pixels."""
+    """Return t of the closest point of the segment, and the squared distance to it in pixels."""
     across, down = pixel_columns() - local.x, pixel_rows(group) - local.y
     t = minimum(maximum((across * local.dx + down * local.dy) * local.inverse, 0.0), 1.0)
     across, down = across - t * local.dx, down - t * local.dy
-    return t, sqrt(across * across + down * down)
+    return t, across * across + down * down
+
+
+@inner
+def misses(local, group):
+    """Return whether all pixels are too far away, without what takes long: the square root and the quotients."""
+    _, squared = nearest_point(local, group)
+    return not any_lane(squared < local.reach * local.reach * SLACK)
 
 
 @inner
@@ -221,7 +230,8 @@ def on_curve(table, q):
 @inner
 def fragments(local, group, square):
     """Return (key, opacity at the full opacity of 1, t, which lanes are touched); `square` says perspective."""
-    t, distance = nearest_point(local, group)
+    t, squared = nearest_point(local, group)
+    distance = sqrt(squared)
     if local.kind & (JOINED_HEAD | JOINED_TAIL):
         distance = where(beyond_joint(local, group), -NOWHERE, distance)
     key = minimum(maximum(local.key + t * local.key_way, local.nearest), local.farthest)

@@ -61,6 +61,8 @@ def fetch(segments, q):
     prefetch(segments.values, q * 16)
     prefetch(segments.kind, q)
     prefetch(segments.pace, q)
+    if len(segments.tails):
+        prefetch(segments.tails, q * 4)
 
 
 @compiled

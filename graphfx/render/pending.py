@@ -24,7 +24,7 @@ PLANES = 5
 SLOT = PLANES * LANES
 CAPACITY = 48
 """Slots of a list; a group that needs more is sorted whole instead."""
-DRIFT = 8
+DRIFT = 2
 """Slots at the head of a list that may be used up before the others are moved to its beginning."""
 LIST = (CAPACITY + DRIFT + 1) * SLOT + 2 * LANES
 """Floats from one group's list to the next: one slot to append, and a shift in the cache."""
@@ -32,6 +32,9 @@ LIGHT = 4 * LANES
 """Floats of a group's transmittance, red, green and blue."""
 PATIENCE = 3
 """Slots that may wait for their last lanes before single lanes are composited."""
+UNASKED = 3
+"""Slots that a fragment is compared with before it is asked whether it has found its place: a branch that cannot be foreseen
+costs more."""
 ALL = 0xFFFF
 EMPTY = np.float32(np.inf)
 
@@ -123,11 +126,12 @@ def insert(slots, base, first, count, key, opacity, red, green, blue):
     """
     place = base + (first + count) * SLOT
     back, begin = place, base + first * SLOT
+    asked = back - UNASKED * SLOT
     while place > begin:
         before = place - SLOT
         key_there = load(slots, before)
         sooner = key < key_there
-        if not any_lane(sooner):
+        if place <= asked and not any_lane(sooner):
             break
         store_slot(
             slots, place, where(sooner, key_there, key), where(sooner, load(slots, before + LANES), opacity),

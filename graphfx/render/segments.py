@@ -68,7 +68,7 @@ def segment_bytes(extras: Extras) -> int:
 
 def empty_segments(count: int, extras: Extras) -> Segments:
     """Return room for `count` segments; what not all need, only where any needs it."""
-    places = _rows_of_lines(count)
+    places = lines(count).view(np.float64).reshape(count, LINE // 8)
     return Segments(
         places, places.view(np.float32), np.empty((count * extras.varies, 4), np.float32),
         np.empty(count, np.float32), np.empty(count, np.uint8), np.empty(count, np.float32),
@@ -77,8 +77,8 @@ def empty_segments(count: int, extras: Extras) -> Segments:
     )
 
 
-def _rows_of_lines(count: int) -> np.ndarray:
-    """Return room for rows of 64 bytes, each of them a line of the cache."""
+def lines(count: int) -> np.ndarray:
+    """Return room for lines of the cache, as float32 and beginning at one: nothing read at once lies in two of them."""
     room = np.empty((count + 1) * LINE, np.uint8)
     first = -room.ctypes.data % LINE
-    return room[first : first + count * LINE].view(np.float64).reshape(count, LINE // 8)
+    return room[first : first + count * LINE].view(np.float32)

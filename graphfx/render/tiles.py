@@ -25,6 +25,7 @@ from graphfx.render.layer import (
     fragments,
     groups_touched,
     localize,
+    misses,
 )
 from graphfx.render.order import AHEAD, fetch
 from graphfx.render.pending import (
@@ -41,6 +42,7 @@ from graphfx.render.pending import (
     release,
     to_front,
 )
+from graphfx.render.segments import lines
 
 OVERFLOWED = -1
 """Slots of a group that is to be sorted whole."""
@@ -79,7 +81,9 @@ class Scratch(NamedTuple):
 def new_scratch() -> Scratch:
     """Return scratch for one thread."""
     numbers = np.zeros((5, GROUPS), np.int64)
-    return Scratch(np.zeros(GROUPS * LIST, np.float32), np.zeros(GROUPS * LIGHT, np.float32), *numbers)
+    slots, light = lines(GROUPS * LIST // LANES), lines(GROUPS * LIGHT // LANES)
+    slots[:] = 0.0
+    return Scratch(slots, light, *numbers)
 
 
 @inner
@@ -101,6 +105,8 @@ def lanes_inside(left, top, width, height):
 @inner
 def _draw(segments, tiles, q, local, group, scratch, cover):
     """Draw one segment in one group, and count its fragments in the picture."""
+    if misses(local, group):
+        return
     key, shape, t, hit = fragments(local, group, tiles.perspective)
     bits = mask_bits(hit)
     if bits == 0:
