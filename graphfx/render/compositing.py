@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from graphfx.render.cover import Cover, begin_group, new_cover
-from graphfx.render.deep import FIRST_CAPACITY, Buffer, clear_buffer, new_buffer, render_deep
+from graphfx.render.cover import Cover, new_cover
+from graphfx.render.deep import BEGIN, FIRST_CAPACITY, Buffer, enlarged, new_buffer, render_deep
 from graphfx.render.layer import GROUPS
 from graphfx.render.layers import Layers
 from graphfx.render.segments import Segments
@@ -30,27 +30,32 @@ def composite(segments: Segments, tiles: Tiles, layers: Layers | None, threads: 
         fragments[piece] = render_tiles(segments, tiles, start, stop, True, True, new_scratch(), overflowed, pixels, cover)
 
     parallel_ranges(work, bounds, threads)
-    deep = np.flatnonzero(overflowed)
+    deep = np.flatnonzero(overflowed.reshape(count, GROUPS).any(axis=1))
     bounds = ranges(len(deep), threads * PIECES)
     deep_fragments = [0] * len(bounds)
 
     def work_deep(piece: int, start: int, stop: int) -> None:
-        buffer = new_buffer(FIRST_CAPACITY)
-        for number in deep[start:stop]:
-            clear_buffer(buffer)
-            made, buffer = render_deep(segments, tiles, number, True, buffer, pixels, _begun_cover(layers, number))
-            deep_fragments[piece] += made
+        buffer, cover = new_buffer(FIRST_CAPACITY), new_cover(layers)
+        numbers = deep[start:stop]
+        deep_fragments[piece], _ = composite_deep(segments, tiles, numbers, BEGIN, True, overflowed, buffer, pixels, cover)
 
-    parallel_ranges(work_deep, bounds, threads)
+    if len(deep):
+        parallel_ranges(work_deep, bounds, threads)
     return sum(fragments) + sum(deep_fragments)
 
 
-def _begun_cover(layers: Layers | None, number: int) -> Cover | None:
-    """Return a cover for one group, `number` = tile * GROUPS + group."""
-    cover = new_cover(layers)
-    if cover is not None:
-        begin_group(cover, number // GROUPS, number % GROUPS)
-    return cover
+def composite_deep(
+    segments: Segments, tiles: Tiles, numbers: np.ndarray, place: int, finish: bool, overflowed: np.ndarray, buffer: Buffer,
+    pixels: np.ndarray, cover: Cover | None,
+) -> tuple[int, Buffer]:
+    """Composite the groups of some tiles that overflowed; return the number of fragments, and the buffer that goes on."""
+    at = total = 0
+    while True:
+        at, place, made = render_deep(segments, tiles, numbers, at, place, finish, overflowed, buffer, pixels, cover)
+        total += made
+        if at == len(numbers):
+            return total, buffer
+        buffer = enlarged(buffer)
 
 
 class Slabs:
@@ -58,10 +63,10 @@ class Slabs:
 
     def __init__(self, layers: Layers | None) -> None:
         self.scratch, self.cover = new_scratch(), new_cover(layers)
-        self.layers = layers
+        self.deep_cover = new_cover(layers)
         self.overflowed = np.zeros(GROUPS, np.bool_)
         self.begun = False
-        self.buffers: dict[int, tuple[Buffer, Cover | None]] = {}
+        self.buffer: Buffer | None = None
 
     def add(self, segments: Segments, tiles: Tiles, finish: bool, pixels: np.ndarray) -> int:
         """Go on with a slab; return the number of fragments that are done, all but those of groups that overflowed."""
@@ -72,12 +77,10 @@ class Slabs:
 
     def add_deep(self, segments: Segments, tiles: Tiles, finish: bool, pixels: np.ndarray) -> int:
         """Go on with a slab in the groups that overflowed, when all slabs have been added once; return their fragments."""
-        total = 0
-        for group in np.flatnonzero(self.overflowed):
-            buffer, cover = self.buffers.get(int(group)) or (new_buffer(FIRST_CAPACITY), _begun_cover(self.layers, int(group)))
-            made, buffer = render_deep(segments, tiles, group, finish, buffer, pixels, cover)
-            self.buffers[int(group)] = buffer, cover
-            total += made
+        place, buffer = (BEGIN, new_buffer(FIRST_CAPACITY)) if self.buffer is None else (0, self.buffer)
+        total, self.buffer = composite_deep(
+            segments, tiles, np.zeros(1, np.int64), place, finish, self.overflowed, buffer, pixels, self.deep_cover
+        )
         return total
 
 

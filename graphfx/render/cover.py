@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from graphfx.lanes import compiled, load, mask_bits, mask_from_bits, splat, store
+from graphfx.lanes import load, mask_bits, mask_from_bits, splat, store
 from graphfx.lanes.bits import sum_lanes
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
@@ -58,12 +58,6 @@ def begin_pixels(cover, k, first, count):
         if row >= 0:
             cover.rows[i], cover.stops[i] = cover.layers.firsts[row, first + i], cover.layers.firsts[row, first + i + 1]
         _note_due(cover, i)
-
-
-@compiled
-def begin_group(cover, k, group):
-    """Begin the sixteen pixels of a group of tile k, as the first of the cover."""
-    begin_pixels(cover, k, group * SAMPLES, SAMPLES)
 
 
 @inner

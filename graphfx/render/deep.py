@@ -1,7 +1,8 @@
 """Groups whose pending list overflowed: gather every pixel's fragments and sort them.
 
-A buffer holds layers of sixteen lanes as they come. When it is full, every lane is sorted by (key, place in the buffer),
-all sixteen at once: a network of compare-exchanges moves keys and places alone. What is final is composited, and the rest stays;
+A tile's segments are gone through once for all such groups. A buffer holds the layers of sixteen lanes as they come, and beside
+them for each lane the keys of its fragments and the slots that they are in. When it is full, every lane is sorted by (key, slot),
+all sixteen at once: a network of compare-exchanges moves keys and slots alone. What is final is composited, and the rest stays;
 a buffer that would stay nearly full is doubled. So memory follows the number of fragments that are pending at one time,
 not the number there are. [Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M]
 """
@@ -12,113 +13,139 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphfx.lanes import any_lane, compiled, load, mask_bits, mask_from_bits, splat, store
+from graphfx.lanes import any_lane, compiled, load, mask_bits, splat, store
 from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
 from graphfx.math.primitives import where
-from graphfx.render.cover import hides
-from graphfx.render.layer import GROUP_HEIGHT, GROUPS, alpha_of, colored, fragments, groups_touched, localize
+from graphfx.render.cover import begin_pixels, hides
+from graphfx.render.layer import (
+    GROUP_HEIGHT,
+    GROUPS,
+    TILE_HEIGHT,
+    TILE_WIDTH,
+    alpha_of,
+    colored,
+    fragments,
+    groups_touched,
+    localize,
+    misses,
+)
 from graphfx.render.order import AHEAD, fetch
 from graphfx.render.pending import EMPTY, LANES, LIGHT, SLOT, add_slot, clear_light, store_slot
-from graphfx.render.segments import KEY0, KEY1
+from graphfx.render.segments import lines
 from graphfx.render.tiles import lanes_inside, tile_corner, write_pixels
 
 FIRST_CAPACITY = 128
+"""Slots of each group that a buffer begins with."""
+BEGIN = -1
+"""A place in a tile's list: before all, when its groups are to be cleared."""
 
 
 class Buffer(NamedTuple):
-    """The fragments of sixteen pixels that are pending, and their light.
+    """The fragments of a tile's groups that are pending, and their light.
 
-    `slots` are as in pending.py, but each lane is filled by itself: `filled` tells how far. `keys` and `places` are planes of
-    sixteen lanes: what is sorted, and the slots that it is of. `spare` is room for as many slots.
+    Each group has `capacity` slots as in pending.py, `counts` of them in use. Row r of its `keys` and `places` is fragment r of
+    each lane: its key, and the slot that it is in; `filled` says how many there are. `spare` is room for a group's slots.
     """
 
     slots: np.ndarray
     keys: np.ndarray
     places: np.ndarray
-    spare: np.ndarray
-    light: np.ndarray
     filled: np.ndarray
+    counts: np.ndarray
+    inside: np.ndarray
+    light: np.ndarray
+    spare: np.ndarray
+    capacity: int
 
 
-@compiled
-def new_buffer(capacity):
-    """Return room for `capacity` fragments in each of sixteen pixels."""
-    light = np.zeros(LIGHT, np.float32)
-    clear_light(light, 0)
+def new_buffer(capacity: int) -> Buffer:
+    """Return room for `capacity` layers in each group."""
+    numbers = np.zeros(GROUPS, np.int64), np.zeros(GROUPS, np.int64)
+    spare = lines(capacity * SLOT // LANES)
+    spare[:] = 0.0
     return Buffer(
-        np.zeros(capacity * SLOT, np.float32), np.empty(capacity * LANES, np.float32), np.empty(capacity * LANES, np.float32),
-        np.zeros(capacity * SLOT, np.float32), light, np.zeros(LANES, np.int64),
+        lines(GROUPS * capacity * SLOT // LANES), lines(GROUPS * capacity), lines(GROUPS * capacity),
+        np.zeros(GROUPS * LANES, np.int64), *numbers, lines(GROUPS * LIGHT // LANES), spare, capacity,
     )
 
 
-@compiled
-def clear_buffer(buffer):
-    """Make a buffer ready for another group."""
-    clear_light(buffer.light, 0)
-    for lane in range(LANES):
-        buffer.filled[lane] = 0
-
-
-@compiled
-def _enlarged(buffer):
+def enlarged(buffer: Buffer) -> Buffer:
     """Return a buffer of twice the capacity with the same content."""
-    larger = new_buffer(2 * len(buffer.keys) // LANES)
-    for i in range(LIGHT):
-        larger.light[i] = buffer.light[i]
-    for i in range(len(buffer.slots)):
-        larger.slots[i] = buffer.slots[i]
-    for lane in range(LANES):
-        larger.filled[lane] = buffer.filled[lane]
-    return larger
+    larger = new_buffer(2 * buffer.capacity)
+    for name in ("slots", "keys", "places"):
+        before, after = (getattr(each, name).reshape(GROUPS, -1) for each in (buffer, larger))
+        after[:, : before.shape[1]] = before
+    return larger._replace(filled=buffer.filled, counts=buffer.counts, inside=buffer.inside, light=buffer.light)
 
 
 @inner
-def _fullest(buffer):
-    """Return the greatest number of fragments in a lane."""
+def _begin_tile(tiles, k, buffer, cover):
+    """Clear all groups of a tile."""
+    left, top = tile_corner(tiles, k)
+    for group in range(GROUPS):
+        clear_light(buffer.light, group * LIGHT)
+        buffer.counts[group] = 0
+        buffer.inside[group] = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
+    for i in range(GROUPS * LANES):
+        buffer.filled[i] = 0
+    if cover is not None:
+        begin_pixels(cover, k, 0, TILE_WIDTH * TILE_HEIGHT)
+
+
+@inner
+def _fullest(buffer, group):
+    """Return the greatest number of fragments in a lane of a group."""
     most = 0
     for lane in range(LANES):
-        most = max(most, buffer.filled[lane])
+        most = max(most, buffer.filled[group * LANES + lane])
     return most
 
 
 @inner
-def _final(buffer, limit):
-    """Return how many fragments have a key of at most `limit`."""
-    final = 0
+def _held(buffer, group):
+    """Return the number of fragments of a group."""
+    total = 0
     for lane in range(LANES):
-        for row in range(buffer.filled[lane]):
-            final += buffer.slots[row * SLOT + lane] <= limit
+        total += buffer.filled[group * LANES + lane]
+    return total
+
+
+@inner
+def _close_keys(buffer, group, count):
+    """Give rows of keys, as many as the fullest lane has, the key EMPTY where a lane has no fragment."""
+    base = group * buffer.capacity * LANES
+    for lane in range(LANES):
+        for row in range(buffer.filled[group * LANES + lane], count):
+            buffer.keys[base + row * LANES + lane] = EMPTY
+            buffer.places[base + row * LANES + lane] = 0.0
+
+
+@inner
+def _final(buffer, group, count, limit):
+    """Return how many fragments have a key of at most `limit`."""
+    base, final = group * buffer.capacity * LANES, 0
+    for row in range(count):
+        key = load(buffer.keys, base + row * LANES)
+        final += count_bits(mask_bits((key <= limit) & (key < EMPTY)))
     return final
 
 
 @inner
-def _set_keys(buffer, count):
-    """Write the keys and places of the first slots, to be sorted."""
-    for row in range(count):
-        key = load(buffer.slots, row * SLOT)
-        bits = 0
-        for lane in range(LANES):
-            bits |= (row < buffer.filled[lane]) << lane
-        store(buffer.keys, row * LANES, where(mask_from_bits(bits), key, EMPTY))
-        store(buffer.places, row * LANES, splat(np.float32(row)))
-
-
-@inner
 def _exchange(keys, places, i, j):
-    """Bring the lanes of rows i < j into order."""
-    key, other = load(keys, i * LANES), load(keys, j * LANES)
-    place, there = load(places, i * LANES), load(places, j * LANES)
+    """Bring the lanes at i and j, i the first, into order."""
+    key, other = load(keys, i), load(keys, j)
+    place, there = load(places, i), load(places, j)
     wrong = (other < key) | ((other == key) & (there < place))
-    store(keys, i * LANES, where(wrong, other, key))
-    store(keys, j * LANES, where(wrong, key, other))
-    store(places, i * LANES, where(wrong, there, place))
-    store(places, j * LANES, where(wrong, place, there))
+    store(keys, i, where(wrong, other, key))
+    store(keys, j, where(wrong, key, other))
+    store(places, i, where(wrong, there, place))
+    store(places, j, where(wrong, place, there))
 
 
 @inner
-def sort_lanes(keys, places, count):
-    """Sort `count` rows of keys in each lane, and their places with them; equals by place."""
+def sort_lanes(keys, places, base, count):
+    """Sort `count` rows of keys, from `base` on, in each lane, and their places with them; equals by place."""
     top = 1
     while 2 * top < count:
         top *= 2
@@ -126,9 +153,9 @@ def sort_lanes(keys, places, count):
     while p > 0:
         q, r, d = top, 0, p
         while True:
-            for i in range(count - d):
-                if i & p == r:
-                    _exchange(keys, places, i, i + d)
+            for start in range(r, count - d, 2 * p):
+                for i in range(start, min(start + p, count - d)):
+                    _exchange(keys, places, base + i * LANES, base + (i + d) * LANES)
             if q == p:
                 break
             d, q, r = q - p, q // 2, p
@@ -136,118 +163,135 @@ def sort_lanes(keys, places, count):
 
 
 @inner
-def _fetch(buffer, row, lane, at):
+def _fetch(buffer, group, row, lane, at):
     """Copy the fragment that is `row` in the order of a lane to the spare slot `at`."""
-    source = int(buffer.places[row * LANES + lane]) * SLOT + lane
+    base = group * buffer.capacity
+    source = (base + int(buffer.places[(base + row) * LANES + lane])) * SLOT + lane
     for plane in range(0, SLOT, LANES):
         buffer.spare[at * SLOT + plane + lane] = buffer.slots[source + plane]
 
 
 @inner
-def _flush(buffer, limit, cover):
-    """Sort, composite what has a key of at most `limit`, and keep the rest."""
-    count = _fullest(buffer)
-    _set_keys(buffer, count)
-    sort_lanes(buffer.keys, buffer.places, count)
-    done = 0
-    while done < count:
-        key = load(buffer.keys, done * LANES)
+def _flush(buffer, group, count, limit, cover):
+    """Sort closed rows of keys, and composite what has a key of at most `limit`."""
+    base = group * buffer.capacity * LANES
+    sort_lanes(buffer.keys, buffer.places, base, count)
+    for row in range(count):
+        key = load(buffer.keys, base + row * LANES)
         final = (key <= limit) & (key < EMPTY)
         if not any_lane(final):
             break
         for lane in range(LANES):
-            _fetch(buffer, done, lane, 0)
-        add_slot(buffer.light, 0, buffer.spare, 0, final, cover)
-        done += 1
-    for lane in range(LANES):
-        _keep(buffer, lane, limit)
-    for i in range(_fullest(buffer) * SLOT):
-        buffer.slots[i] = buffer.spare[i]
+            _fetch(buffer, group, row, lane, 0)
+        add_slot(buffer.light, group * LIGHT, buffer.spare, 0, final, cover)
 
 
 @inner
-def _keep(buffer, lane, limit):
-    """Move the fragments of a lane that are beyond the limit to its beginning, in order."""
-    left = 0
-    for row in range(buffer.filled[lane]):
-        if buffer.keys[row * LANES + lane] > limit:
-            _fetch(buffer, row, lane, left)
-            left += 1
-    buffer.filled[lane] = left
+def _keep(buffer, group, limit):
+    """Move the sorted fragments beyond the limit to the beginning, in order, each lane by itself."""
+    base, most = group * buffer.capacity, 0
+    for lane in range(LANES):
+        left = 0
+        for row in range(buffer.filled[group * LANES + lane]):
+            if buffer.keys[(base + row) * LANES + lane] > limit:
+                _fetch(buffer, group, row, lane, left)
+                left += 1
+        buffer.filled[group * LANES + lane] = left
+        most = max(most, left)
+    for row in range(most):
+        for plane in range(0, SLOT, LANES):
+            store(buffer.slots, (base + row) * SLOT + plane, load(buffer.spare, row * SLOT + plane))
+        store(buffer.keys, (base + row) * LANES, load(buffer.spare, row * SLOT))
+        store(buffer.places, (base + row) * LANES, splat(np.float32(row)))
+    buffer.counts[group] = most
+
+
+@inner
+def _has_room(buffer, group, limit, cover):
+    """Return whether a group has room for a layer, having composited what is final if that makes much of it."""
+    if buffer.counts[group] < buffer.capacity:
+        return True
+    count = _fullest(buffer, group)
+    _close_keys(buffer, group, count)
+    if 4 * _final(buffer, group, count, limit) < _held(buffer, group) and 2 * count > buffer.capacity:
+        return False
+    _flush(buffer, group, count, limit, cover)
+    _keep(buffer, group, limit)
+    return 4 * buffer.counts[group] <= 3 * buffer.capacity
 
 
 @inner
 def _gather(segments, q, local, group, square, buffer):
     """Append one segment's fragments; return the bits of the pixels that have one."""
+    if misses(local, group):
+        return 0
     key, shape, t, hit = fragments(local, group, square)
     bits = mask_bits(hit)
     if bits:
         opacity, red, green, blue = colored(segments, q, local, key, t, square)
-        store_slot(buffer.spare, 0, key, alpha_of(opacity, shape), red, green, blue)
+        base, place = group * buffer.capacity, buffer.counts[group]
+        slot = (base + place) * SLOT
+        store_slot(buffer.slots, slot, key, alpha_of(opacity, shape), red, green, blue)
         for lane in range(LANES):
-            if bits >> lane & 1:
-                row = buffer.filled[lane]
-                for plane in range(0, SLOT, LANES):
-                    buffer.slots[row * SLOT + plane + lane] = buffer.spare[plane + lane]
-                buffer.filled[lane] = row + 1
+            row = buffer.filled[group * LANES + lane]
+            buffer.keys[(base + row) * LANES + lane] = buffer.slots[slot + lane]
+            buffer.places[(base + row) * LANES + lane] = place
+            buffer.filled[group * LANES + lane] = row + (bits >> lane & 1)
+        buffer.counts[group] = place + 1
     return bits
 
 
-@compiled
-def _fill(segments, tiles, number, place, buffer, cover):
-    """Append fragments from a place in the tile's list on until the buffer is full; return the next place, and their number."""
-    k, group = number // GROUPS, number % GROUPS
+@inner
+def _gather_tile(segments, tiles, k, place, overflowed, buffer, cover):
+    """Gather from a place in the tile's list on; return the place where a group has no room, or the end, and the fragments."""
     left, top = tile_corner(tiles, k)
-    stop, capacity = tiles.starts[k + 1], len(buffer.keys) // LANES
-    inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
-    most, total = _fullest(buffer), 0
-    while place < stop and most < capacity:
+    stop, total = tiles.starts[k + 1], 0
+    while place < stop:
         fetch(segments, tiles.members[min(place + AHEAD, stop - 1)])
         q = tiles.members[place]
-        place += 1
         local = localize(segments, q, left + 0.5, top + 0.5)
         first, last = groups_touched(local)
-        if first <= group <= last:
-            if cover is not None and hides(cover.layers, k, group, local.nearest):
-                return stop, total
-            total += count_bits(_gather(segments, q, local, group, tiles.perspective, buffer) & inside)
-            most = _fullest(buffer)
+        for group in range(first, last + 1):
+            if not _has_room(buffer, group, local.nearest, cover):
+                return place, total
+        for group in range(first, last + 1):
+            if overflowed[k * GROUPS + group] and not (cover is not None and hides(cover.layers, k, group, local.nearest)):
+                total += count_bits(_gather(segments, q, local, group, tiles.perspective, buffer) & buffer.inside[group])
+        place += 1
     return place, total
 
 
-@compiled
-def _make_room(segments, q, buffer, cover):
-    """Composite what is final as segment q comes, if that is much; return whether the buffer must grow."""
-    capacity, limit = len(buffer.keys) // LANES, min(segments.values[q, KEY0], segments.values[q, KEY1])
-    if 4 * _final(buffer, limit) > LANES * capacity:
-        _flush(buffer, limit, cover)
-    return 4 * _fullest(buffer) > 3 * capacity
-
-
-@compiled
-def _finish(tiles, number, buffer, pixels, cover):
-    """Composite all that is left of a group and write the film."""
-    k, group = number // GROUPS, number % GROUPS
+@inner
+def _finish_tile(tiles, k, overflowed, buffer, pixels, cover):
+    """Composite all that is left of a tile's groups and write the film."""
     left, top = tile_corner(tiles, k)
-    top += GROUP_HEIGHT * group
-    _flush(buffer, EMPTY, cover)
-    write_pixels(buffer.light, 0, pixels, left, top, lanes_inside(left, top, tiles.width, tiles.height), cover)
+    for group in range(GROUPS):
+        if overflowed[k * GROUPS + group]:
+            count = _fullest(buffer, group)
+            _close_keys(buffer, group, count)
+            _flush(buffer, group, count, EMPTY, cover)
+            write_pixels(buffer.light, group * LIGHT, pixels, left, top + GROUP_HEIGHT * group, buffer.inside[group], cover)
 
 
 @compiled
-def render_deep(segments, tiles, number, finish, buffer, pixels, cover):
-    """Render one group of one tile, `number` = tile * GROUPS + group, sorting all its fragments.
+def render_deep(segments, tiles, numbers, at, place, finish, overflowed, buffer, pixels, cover):
+    """Render the overflowed groups of the tiles `numbers`, from its place `at` on, sorting all their fragments.
 
-    Of a tile whose segments come in slabs, `finish` says that these are the last. `cover` holds the layers of
-    polygons, begun for this group, or is None. Return the number of fragments and the buffer that goes on.
+    The first is gone on with at a place in its list. Of a tile whose segments come in slabs, `finish` says that these are the
+    last. `cover` holds the layers of polygons, or is None. Return where a larger buffer is needed to go on, as (at, place), and
+    the number of fragments up to there.
     """
-    place, stop, total = tiles.starts[number // GROUPS], tiles.starts[number // GROUPS + 1], 0
-    while place < stop:
-        place, more = _fill(segments, tiles, number, place, buffer, cover)
+    total = 0
+    while at < len(numbers):
+        k = numbers[at]
+        if place == BEGIN:
+            _begin_tile(tiles, k, buffer, cover)
+            place = tiles.starts[k]
+        place, more = _gather_tile(segments, tiles, k, place, overflowed, buffer, cover)
         total += more
-        full = _fullest(buffer) == len(buffer.keys) // LANES
-        if full and _make_room(segments, tiles.members[min(place, stop - 1)], buffer, cover):
-            buffer = _enlarged(buffer)
-    if finish:
-        _finish(tiles, number, buffer, pixels, cover)
-    return total, buffer
+        if place < tiles.starts[k + 1]:
+            return at, place, total
+        if finish:
+            _finish_tile(tiles, k, overflowed, buffer, pixels, cover)
+        at, place = at + 1, BEGIN
+    return at, place, total

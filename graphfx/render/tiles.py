@@ -46,6 +46,8 @@ from graphfx.render.segments import lines
 
 OVERFLOWED = -1
 """Slots of a group that is to be sorted whole."""
+FORETOLD = 8
+"""One of so many tiles in a row is tried; where most of its groups overflow, those of the others are put aside untried."""
 
 
 class Tiles(NamedTuple):
@@ -186,6 +188,15 @@ def _all_closed(scratch):
     return True
 
 
+@inner
+def _most_overflowed(scratch):
+    """Return whether most groups of a tile overflowed."""
+    count = 0
+    for group in range(GROUPS):
+        count += scratch.counts[group] == OVERFLOWED
+    return 2 * count > GROUPS
+
+
 @compiled
 def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowed, pixels, cover):
     """Render tiles start ... stop - 1 into the film and mark groups that overflowed; return the number of fragments.
@@ -193,8 +204,11 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
     Of a tile whose segments come in slabs, `begin` says that these are the first, `finish` that they are the last.
     `cover` holds the layers of polygons; None is compiled to what knows of none.
     """
-    total = 0
+    total, crowded = 0, False
     for k in range(start, stop):
+        if crowded and k % FORETOLD:
+            overflowed[k * GROUPS : (k + 1) * GROUPS] = True
+            continue
         left, top = tile_corner(tiles, k)
         if begin:
             _begin_tile(tiles, k, scratch, cover)
@@ -213,4 +227,5 @@ def render_tiles(segments, tiles, start, stop, begin, finish, scratch, overflowe
                     _draw(segments, tiles, q, local, group, scratch, cover)
         if finish:
             total += _finish_tile(tiles, k, scratch, overflowed, pixels, cover)
+            crowded = tiles.cutoff == 0.0 and _most_overflowed(scratch)
     return total
