@@ -174,15 +174,18 @@ def _fetch(buffer, group, row, lane, at):
 @inner
 def _flush(buffer, group, count, limit, cover):
     """Sort closed rows of keys, and composite what has a key of at most `limit`."""
-    base = group * buffer.capacity * LANES
+    base, slots = group * buffer.capacity * LANES, group * buffer.capacity * SLOT
     sort_lanes(buffer.keys, buffer.places, base, count)
     for row in range(count):
         key = load(buffer.keys, base + row * LANES)
         final = (key <= limit) & (key < EMPTY)
         if not any_lane(final):
             break
+        store(buffer.spare, 0, key)
         for lane in range(LANES):
-            _fetch(buffer, group, row, lane, 0)
+            source = slots + int(buffer.places[base + row * LANES + lane]) * SLOT + lane
+            for plane in range(LANES, SLOT, LANES):
+                buffer.spare[plane + lane] = buffer.slots[source + plane]
         add_slot(buffer.light, group * LIGHT, buffer.spare, 0, final, cover)
 
 
