@@ -62,6 +62,29 @@ def test_lists_and_whole_sorts_give_the_same_bytes(monkeypatch):
     assert film(*streams, camera=FLAT).pixels.tobytes() == normal.tobytes()
 
 
+@pytest.mark.parametrize("capacity", [1, 3, 40, 1000])
+def test_room_for_whole_sorts_changes_no_byte(capacity, monkeypatch):
+    """However few layers there is room for at first, what is sorted whole comes out the same, and so does their number."""
+    streams = [comets(3, 300), streaks(4, 200, blend="add"), _piercing(300), *_tied(200)]
+    normal = film(*streams, camera=FLAT)
+    sort_all_whole(monkeypatch)
+    monkeypatch.setattr(compositing, "FIRST_CAPACITY", capacity)
+    whole = film(*streams, camera=FLAT)
+    assert whole.pixels.tobytes() == normal.pixels.tobytes()
+    assert whole.fragments == normal.fragments
+
+
+def test_tiles_put_aside_untried_hold_what_they_would_have_held(monkeypatch):
+    """Beside tiles whose lists overflow, tiles with little or nothing in them are drawn as ever."""
+    crowd, few = _piercing(600), streaks(5, 40)
+    crowd.head[0], crowd.tail[0] = np.minimum(crowd.head[0], 0.2), np.minimum(crowd.tail[0], 0.2)
+    normal = film(crowd, few, size=(200, 32))
+    sort_all_whole(monkeypatch)
+    whole = film(crowd, few, size=(200, 32))
+    assert whole.pixels.tobytes() == normal.pixels.tobytes()
+    assert whole.fragments == normal.fragments
+
+
 def _tied(count: int) -> list[Streaks]:
     """Return still particles, and streaks whose nearer ends are just where those are."""
     still, moving = streaks(31, count, length=0.0), streaks(32, count, radius=(0.2, 0.4))
