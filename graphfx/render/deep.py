@@ -2,9 +2,8 @@
 
 A tile's segments are gone through once for all such groups. A buffer holds the layers of sixteen lanes as they come, and beside
 them for each lane the keys of its fragments and the slots that they are in. When it is full, every lane is sorted by (key, slot),
-all sixteen at once: a network of compare-exchanges moves keys and slots alone. What is final is composited, and the rest stays;
-a buffer that would stay nearly full is doubled. So memory follows the number of fragments that are pending at one time,
-not the number there are. [Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M]
+all sixteen at once: keys and slots alone move. What is final is composited, and the rest stays; a buffer that would stay nearly
+full is doubled. So memory follows the number of fragments that are pending at one time, not the number there are.
 """
 
 from __future__ import annotations
@@ -16,7 +15,6 @@ import numpy as np
 from graphfx.lanes import any_lane, compiled, load, mask_bits, splat, store
 from graphfx.lanes.bits import count_bits
 from graphfx.lanes.inner import inner
-from graphfx.math.primitives import where
 from graphfx.render.cover import begin_pixels, hides
 from graphfx.render.layer import (
     GROUP_HEIGHT,
@@ -30,7 +28,7 @@ from graphfx.render.layer import (
     localize,
     misses,
 )
-from graphfx.render.order import AHEAD, fetch
+from graphfx.render.order import AHEAD, fetch, sort_lanes
 from graphfx.render.pending import EMPTY, LANES, LIGHT, SLOT, add_slot, clear_light, store_slot
 from graphfx.render.segments import lines
 from graphfx.render.tiles import lanes_inside, tile_corner, write_pixels
@@ -129,37 +127,6 @@ def _final(buffer, group, count, limit):
         key = load(buffer.keys, base + row * LANES)
         final += count_bits(mask_bits((key <= limit) & (key < EMPTY)))
     return final
-
-
-@inner
-def _exchange(keys, places, i, j):
-    """Bring the lanes at i and j, i the first, into order."""
-    key, other = load(keys, i), load(keys, j)
-    place, there = load(places, i), load(places, j)
-    wrong = (other < key) | ((other == key) & (there < place))
-    store(keys, i, where(wrong, other, key))
-    store(keys, j, where(wrong, key, other))
-    store(places, i, where(wrong, there, place))
-    store(places, j, where(wrong, place, there))
-
-
-@inner
-def sort_lanes(keys, places, base, count):
-    """Sort `count` rows of keys, from `base` on, in each lane, and their places with them; equals by place."""
-    top = 1
-    while 2 * top < count:
-        top *= 2
-    p = top if count > 1 else 0
-    while p > 0:
-        q, r, d = top, 0, p
-        while True:
-            for start in range(r, count - d, 2 * p):
-                for i in range(start, min(start + p, count - d)):
-                    _exchange(keys, places, base + i * LANES, base + (i + d) * LANES)
-            if q == p:
-                break
-            d, q, r = q - p, q // 2, p
-        p //= 2
 
 
 @inner

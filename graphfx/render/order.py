@@ -6,10 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.lanes import compiled
+from graphfx.lanes import compiled, load, store
 from graphfx.lanes.bits import prefetch
 from graphfx.lanes.inner import inner
+from graphfx.math.primitives import where
 from graphfx.render.falloff import CURVE
+from graphfx.render.pending import LANES
 from graphfx.render.segments import BLURRED, JOINED_HEAD, JOINED_TAIL, Segments, empty_segments
 from graphfx.store.primitives import GRAIN
 from graphfx.store.sorting import stable_argsort
@@ -53,6 +55,40 @@ def merge_sort(words, spare, count):
                     left += 1
                 at += 1
         width *= 2
+
+
+@inner
+def _exchange(keys, places, i, j):
+    """Bring the lanes at i and j, i the first, into order."""
+    key, other = load(keys, i), load(keys, j)
+    place, there = load(places, i), load(places, j)
+    wrong = (other < key) | ((other == key) & (there < place))
+    store(keys, i, where(wrong, other, key))
+    store(keys, j, where(wrong, key, other))
+    store(places, i, where(wrong, there, place))
+    store(places, j, where(wrong, place, there))
+
+
+@inner
+def sort_lanes(keys, places, base, count):
+    """Sort `count` rows of keys, from `base` on, in each lane, and their places with them; equals by place.
+
+    A network of compare-exchanges. [Knuth, The Art of Computer Programming 3, 5.2.2, algorithm M]
+    """
+    top = 1
+    while 2 * top < count:
+        top *= 2
+    p = top if count > 1 else 0
+    while p > 0:
+        q, r, d = top, 0, p
+        while True:
+            for start in range(r, count - d, 2 * p):
+                for i in range(start, min(start + p, count - d)):
+                    _exchange(keys, places, base + i * LANES, base + (i + d) * LANES)
+            if q == p:
+                break
+            d, q, r = q - p, q // 2, p
+        p //= 2
 
 
 @inner
