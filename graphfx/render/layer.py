@@ -199,8 +199,7 @@ def nearest_point(local, group):
 @inner
 def misses(local, group):
     """Return whether all pixels are too far away, without what takes long: the square root and the quotients."""
-    _, squared = nearest_point(local, group)
-    return not any_lane(squared < local.reach * local.reach * SLACK)
+    return not any_lane(nearest_point(local, group)[1] < local.reach * local.reach * SLACK)
 
 
 @inner
