@@ -40,7 +40,8 @@ class FrameReport:
     """What is told of a cooked frame.
 
     `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
-    within one step that they were brought to rest (counted since the start).
+    within one step that they were brought to rest, `failed` ones found no step short enough to go on (both counted since
+    the start).
     """
 
     frame: int
@@ -48,6 +49,7 @@ class FrameReport:
     fragments: int
     dropped: int
     restless: int
+    failed: int
     files: tuple[Path, ...]
 
 
@@ -136,6 +138,7 @@ class Effect:
             sum(film.fragments for film in films),
             sum(film.dropped for film in films),
             sum(each.unfinished for each in particles),
+            sum(each.failed for each in particles),
             tuple(files),
         )
 

@@ -15,7 +15,7 @@ from graphfx.cook.effect import FrameReport
 
 
 def report(frame: int) -> FrameReport:
-    return FrameReport(frame, particles=12345, fragments=6789012, dropped=0, restless=0, files=())
+    return FrameReport(frame, particles=12345, fragments=6789012, dropped=0, restless=0, failed=0, files=())
 
 
 @pytest.mark.parametrize(("seconds", "words"), [

@@ -101,6 +101,7 @@ class Cook:
     done: list[int] = field(default_factory=list)
     dropped: int = 0
     restless: int = 0
+    failed: int = 0
     begun: bool = False
 
     def check(self) -> None:
@@ -126,11 +127,11 @@ class Cook:
             def report(frame: FrameReport) -> None:
                 self.done.append(frame.frame)
                 self.dropped += frame.dropped
-                self.restless = frame.restless
+                self.restless, self.failed = frame.restless, frame.failed
                 progress.frame(frame)
                 if self.as_json:
                     self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
-                                 "dropped": frame.dropped, "restless": frame.restless,
+                                 "dropped": frame.dropped, "restless": frame.restless, "failed": frame.failed,
                                  "files": list(map(str, frame.files))})
 
             listeners.append(progress.compiling)
@@ -154,6 +155,9 @@ class Cook:
             click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
         if self.restless:
             click.echo(f"{self.restless:,} times a particle had too many contacts in one step, and was laid to rest", err=True)
+        if self.failed:
+            told = "could not go on to the end of a frame: no step was short enough; soften what pulls it, or see graphfx study"
+            click.echo(f"{self.failed:,} times a particle {told}", err=True)
 
     def tell(self) -> None:
         """Say what would be written."""
