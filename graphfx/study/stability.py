@@ -1,7 +1,7 @@
 """Stability: every operator at the ends of its declared ranges, alone and in pairs, at steps from 1e-12 to 1e6 s.
 
 Particles of all sizes of place and speed go two steps. What comes out is finite, or grows beyond the numbers (infinite), or
-is no number though nothing was infinite before (a bug), or is refused with a message.
+is no number though nothing of that particle is infinite (a bug), or is refused with a message.
 """
 
 from __future__ import annotations
@@ -180,7 +180,7 @@ def run_case(case: Case, flat: FlatGraph) -> None:
 def _follow(simulation: Simulation, case: Case) -> None:
     """Put particles where they are to begin, and watch them for two steps."""
     particles = simulation.particles["dots"]
-    infinite = False
+    infinite = np.zeros(len(states()[0]), bool)
     for number, _ in enumerate(simulation.frames(2)):
         if number == 0:
             for name, value in zip(("position", "velocity"), states(), strict=True):
@@ -189,14 +189,15 @@ def _follow(simulation: Simulation, case: Case) -> None:
                         part[:] = value[:, k]
             continue
         arrays = [np.stack(particles.store.column(name)) for name in ("position", "velocity") if name in particles.store.columns]
-        every = np.concatenate(arrays) if arrays else np.zeros((3, 1))
-        if np.isnan(every).any() and not infinite and not np.isinf(every).any():
+        every = np.concatenate(arrays) if arrays else np.zeros((3, particles.store.count))
+        ids = particles.store.column("id")[0]
+        infinite[ids] |= np.isinf(every).any(axis=0)
+        if (np.isnan(every).any(axis=0) & ~infinite[ids]).any():
             case.outcome = "bug"
             return
-        infinite |= not np.isfinite(every).all()
         known = np.abs(every[:3][np.isfinite(every[:3])])
         case.greatest = max(case.greatest, float(known.max(initial=0.0)))
-    case.outcome = "infinite" if infinite else "failed" if particles.failed or particles.unfinished else "finite"
+    case.outcome = "infinite" if infinite.any() else "failed" if particles.failed or particles.unfinished else "finite"
 
 
 def cases_of(library: Library, pairs: bool = True) -> tuple[list[tuple[Ends, ...]], dict[str, str]]:

@@ -30,18 +30,28 @@ if TYPE_CHECKING:
 @library
 @click.option("--json", "as_json", is_flag=True, help="Print JSON; files are written only with --out.")
 @click.option("--fields", is_flag=True, help="Say what each field of the JSON means.")
+@click.option("--stability", is_flag=True, help="Try every operator at the ends of its ranges instead; no GRAPH.")
 @debug
 @click.pass_context
 def command(context: click.Context, graph: str | None, particles: int, frames: str | None, seconds: float, out: str | None,
-            png: bool, parameters: dict[str, str], library: tuple[str, ...], as_json: bool, fields: bool) -> None:
+            png: bool, parameters: dict[str, str], library: tuple[str, ...], as_json: bool, fields: bool,
+            stability: bool) -> None:
     """Measure what each method makes of GRAPH, and what it costs.
 
     Some of its particles run under every method that can carry them, with many steps and tolerances, in 32 and 64 bits.
     Where they should be is found by two references of different orders; the setting that keeps the graph's tolerance
     with the fewest force evaluations is recommended. A table, a page with plots, and JSON tell the rest.
+
+    With --stability every operator, alone and in pairs, goes steps of 1e-12 to 1e6 s with its parameters at the ends of
+    their ranges: what comes out is finite, or told. That takes some minutes.
     """
     if fields:
-        _say_fields()
+        _say_fields(stability)
+        return
+    if stability:
+        if graph is not None:
+            raise UsageError("study: --stability takes no GRAPH: it tries the operators of the library")
+        _try_operators(context, library, out, as_json)
         return
     if graph is None:
         raise UsageError("study: GRAPH is missing\n  'graphfx study --help' says what it takes")
@@ -49,11 +59,15 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
 
     use_wide_registers()
     from graphfx.cook.frames import parse_frames
+    from graphfx.cook.preview import is_placed, preview_of
     from graphfx.graph.flatten import flatten
     from graphfx.node import Library, library_roots
     from graphfx.study.study import Maker
 
-    flat = flatten(graph, Library(library_roots(library)), parameters)
+    known = Library(library_roots(library))
+    flat = flatten(graph, known, parameters)
+    if not is_placed(flat):
+        flat = preview_of(flat, known, "study.webp")
     wanted = parse_frames(frames, flat.time.first, flat.time.last) if frames is not None else None
     folder = Path(out) if out is not None else None if as_json else Path("out") / flat.name
     with Telling(quiet=as_json) as telling:
@@ -73,8 +87,32 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
         context.exit(EXIT_INTERRUPTED)
 
 
-def _say_fields() -> None:
-    from graphfx.study.data import FIELDS
+def _try_operators(context: click.Context, library: tuple[str, ...], out: str | None, as_json: bool) -> None:
+    """Try every operator, and tell what came out."""
+    from graphfx.node import Library, library_roots
+    from graphfx.study.stability import stability
+    from graphfx.study.stability_page import lines, stability_data, stability_page
+
+    with Telling(quiet=as_json) as telling:
+        found = stability(Library(library_roots(library)), telling.tell)
+    data = json.dumps(stability_data(found), indent=None if as_json else 2)
+    folder = Path(out) if out is not None else None if as_json else Path("out")
+    files = _files(folder, {"stability.html": stability_page(found), "stability.json": data + "\n"}) if folder is not None else []
+    if as_json:
+        click.echo(data)
+    else:
+        for line in (*lines(found), f"wrote {', '.join(map(str, files))}"):
+            click.echo(line)
+    if found.stopped:
+        say("stopped; what was tried before is kept")
+        context.exit(EXIT_INTERRUPTED)
+
+
+def _say_fields(stability: bool) -> None:
+    if stability:
+        from graphfx.study.stability_page import FIELDS
+    else:
+        from graphfx.study.data import FIELDS
 
     width = max(map(len, FIELDS))
     for name, meaning in FIELDS.items():
@@ -83,12 +121,17 @@ def _say_fields() -> None:
 
 def _write(study: Study, folder: Path) -> list[Path]:
     """Write the page and the data; return the files."""
-    from graphfx.output.atomic import make_folder, whole_file
     from graphfx.study.data import study_data
     from graphfx.study.page import page
 
-    texts = {"study.html": page(study), "study.json": json.dumps(study_data(study), indent=2) + "\n"}
-    make_folder(folder / "study.html")
+    return _files(folder, {"study.html": page(study), "study.json": json.dumps(study_data(study), indent=2) + "\n"})
+
+
+def _files(folder: Path, texts: dict[str, str]) -> list[Path]:
+    """Write texts under their names; return the files."""
+    from graphfx.output.atomic import make_folder, whole_file
+
+    make_folder(folder / "file")
     for name, text in texts.items():
         with whole_file(folder / name) as stream:
             stream.write(text.encode())
