@@ -2,10 +2,11 @@
 
     dP/dt = rate (P - center),    so P' = center + (P - center) exp(rate dt)
 
-An applied velocity: the particle's own velocity does not change. Exact for any dt. [Sims 1990, 3.3]
+An applied velocity: the particle's own velocity does not change. Exact for any dt; growth counts as at most 3e38, so that
+what is at the center stays there. [Sims 1990, 3.3]
 """
 
-from graphfx.math import Vec3, exp
+from graphfx.math import Vec3, exp, minimum
 from graphfx.node import operator, param
 
 
@@ -17,4 +18,4 @@ def scale(
     rate: float = param(0.5, unit="1/s", min=-50, max=50, doc="Growth; 0.693 doubles all in a second, negative shrinks."),
 ) -> Vec3:
     """Return the position after dt seconds."""
-    return center + (position - center) * exp(rate * dt)
+    return center + (position - center) * minimum(exp(rate * dt), 3e38)

@@ -9,8 +9,10 @@ from xml.etree import ElementTree
 
 import pytest
 
+from graphfx.errors import UsageError
 from graphfx.study.candidates import FAMILIES
 from graphfx.study.page import page
+from graphfx.study.picture import need_matplotlib, picture
 from graphfx.study.plot import HEIGHT, LEFT, RIGHT, TOP, WIDTH, Line, Plot, Point, power_of_ten, svg
 from graphfx.study.recommend import advice
 from graphfx.study.study import Maker, Study
@@ -153,3 +155,20 @@ def test_colours_can_be_seen(mode, card):
     for colours in COLOURS:
         high, low = sorted((luminance(colours[mode]), luminance(card)), reverse=True)
         assert (high + 0.05) / (low + 0.05) >= 3
+
+
+def test_a_picture_is_drawn_where_matplotlib_is(study):
+    """The plots are a PNG of some size."""
+    pytest.importorskip("matplotlib")
+    drawn = picture(study)
+    assert drawn.startswith(b"\x89PNG") and len(drawn) > 20_000
+
+
+def test_without_matplotlib_the_extra_is_named(monkeypatch):
+    """Before any work, what is missing is told with what brings it."""
+    def missing(name):
+        raise ModuleNotFoundError(name)
+
+    monkeypatch.setattr("graphfx.study.picture.import_module", missing)
+    with pytest.raises(UsageError, match=r'install it by: pip install "graphfx\[study\]"'):
+        need_matplotlib()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,6 +56,30 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
         return
     if graph is None:
         raise UsageError("study: GRAPH is missing\n  'graphfx study --help' says what it takes")
+    if png:
+        from graphfx.study.picture import need_matplotlib
+
+        need_matplotlib()
+    study = _make(graph, parameters, library, particles, frames, seconds, as_json)
+    folder = Path(out) if out is not None else None if as_json else Path("out") / study.flat.name
+    files = _write(study, folder, png) if folder is not None else []
+    if as_json:
+        from graphfx.study.data import study_data
+
+        click.echo(json.dumps(study_data(study)))
+    else:
+        from graphfx.cli.study_table import show_study
+
+        show_study(study)
+        click.echo(f"wrote {', '.join(map(str, files))}")
+    if study.stopped:
+        say("stopped; what was measured before is kept")
+        context.exit(EXIT_INTERRUPTED)
+
+
+def _make(graph: str, parameters: dict[str, str], library: tuple[str, ...], particles: int, frames: str | None,
+          seconds: float, quiet: bool) -> Study:
+    """Study a graph; one without a picture is studied as its preview."""
     from graphfx.lanes.host import use_wide_registers
 
     use_wide_registers()
@@ -69,22 +94,8 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
     if not is_placed(flat):
         flat = preview_of(flat, known, "study.webp")
     wanted = parse_frames(frames, flat.time.first, flat.time.last) if frames is not None else None
-    folder = Path(out) if out is not None else None if as_json else Path("out") / flat.name
-    with Telling(quiet=as_json) as telling:
-        study = Maker(flat, particles, wanted, seconds, tell=telling.tell).make()
-    files = _write(study, folder) if folder is not None else []
-    if as_json:
-        from graphfx.study.data import study_data
-
-        click.echo(json.dumps(study_data(study)))
-    else:
-        from graphfx.cli.study_table import show_study
-
-        show_study(study)
-        click.echo(f"wrote {', '.join(map(str, files))}")
-    if study.stopped:
-        say("stopped; what was measured before is kept")
-        context.exit(EXIT_INTERRUPTED)
+    with Telling(quiet=quiet) as telling:
+        return Maker(flat, particles, wanted, seconds, tell=telling.tell).make()
 
 
 def _try_operators(context: click.Context, library: tuple[str, ...], out: str | None, as_json: bool) -> None:
@@ -119,23 +130,28 @@ def _say_fields(stability: bool) -> None:
         click.echo(f"{name:<{width}}  {meaning}")
 
 
-def _write(study: Study, folder: Path) -> list[Path]:
-    """Write the page and the data; return the files."""
+def _write(study: Study, folder: Path, png: bool) -> list[Path]:
+    """Write the page and the data, and the plots as a picture where that is wanted; return the files."""
     from graphfx.study.data import study_data
     from graphfx.study.page import page
 
-    return _files(folder, {"study.html": page(study), "study.json": json.dumps(study_data(study), indent=2) + "\n"})
+    contents: dict[str, str | bytes] = {"study.html": page(study), "study.json": json.dumps(study_data(study), indent=2) + "\n"}
+    if png:
+        from graphfx.study.picture import picture
+
+        contents["study.png"] = picture(study)
+    return _files(folder, contents)
 
 
-def _files(folder: Path, texts: dict[str, str]) -> list[Path]:
-    """Write texts under their names; return the files."""
+def _files(folder: Path, contents: Mapping[str, str | bytes]) -> list[Path]:
+    """Write files of some contents; return them."""
     from graphfx.output.atomic import make_folder, whole_file
 
     make_folder(folder / "file")
-    for name, text in texts.items():
+    for name, content in contents.items():
         with whole_file(folder / name) as stream:
-            stream.write(text.encode())
-    return [folder / name for name in texts]
+            stream.write(content.encode() if isinstance(content, str) else content)
+    return [folder / name for name in contents]
 
 
 class Telling:
