@@ -31,6 +31,17 @@ def subject(name: str, library: Iterable[str | Path] | str | Path = ()) -> Subje
     return Subject(found[name], found)
 
 
+def _of_the_flow(truth: Truth) -> Truth:
+    """Return a truth of a node's function as one of its exact flow."""
+
+    def of_the_flow(subject: Subject) -> None:
+        assert subject.whole is not None
+        truth(subject.whole)
+
+    of_the_flow.__name__, of_the_flow.__doc__ = f"flow_{truth.__name__}", f"Of its exact flow: {truth.__doc__}"
+    return of_the_flow
+
+
 def truths_of(subject: Subject) -> list[Truth]:
     """Return all that must be true of a node: functions, whose names and docs say what."""
     claimed = [truth for truth in OF_ROLES if claims.applies(subject, truth)]
@@ -38,4 +49,6 @@ def truths_of(subject: Subject) -> list[Truth]:
         claimed.append(truths.makes_sound_meshes)
     if subject.draws:
         claimed.append(truths.stays_finite_at_the_ends_of_draws)
+    if subject.whole is not None:
+        claimed += [_of_the_flow(truth) for truth in (truths.machine_is_plain_python, truths.stays_finite)]
     return [*ALL, *(OF_FUNCTIONS if subject.is_function else ()), *claimed]

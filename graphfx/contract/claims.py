@@ -14,6 +14,7 @@ from graphfx.contract.both_ways import plainly
 from graphfx.contract.inputs import Inputs, Row, pairs, shown
 from graphfx.contract.subject import Subject
 from graphfx.math import Vec3
+from graphfx.node import NodeType
 
 COUNT = 40
 CLOSE = 1e-7
@@ -115,15 +116,38 @@ def does_nothing_when_neutral(subject: Subject) -> None:
 def has_its_linear_form(subject: Subject) -> None:
     """Where its `exact_if` holds, a flow's rate of change is that of its linear form: (f(h) - f(0)) / h for a small h."""
     node_type = subject.node_type
-    conditions = re.findall(r"(\w+) == ([\w.+-]+)", node_type.exact_if)
     assert node_type.linear is not None
     names = inspect.signature(node_type.linear).parameters
     rate_type = replace(node_type, function=node_type.linear, arguments=tuple(names))
     for row in _rows(subject):
-        exact = row | {name: float(value.replace("infinity", "inf")) for name, value in conditions}
+        exact = row | _exact_values(node_type)
         after, before = (plainly(node_type, exact, dt=dt)[-1] for dt in (SOON, 0.0))
         (rate,) = plainly(rate_type, exact)
         _close((after - before) / SOON, rate, "its linear form is not its rate of change", exact, 1e-3)
+
+
+def has_its_exact_flow(subject: Subject) -> None:
+    """Where its `exact_if` holds, an acceleration's flow composes, carries by the velocity, and changes it as is declared."""
+    node_type, whole = subject.node_type, subject.whole
+    assert whole is not None
+    composes(whole)
+    for row in Inputs(replace(node_type, arguments=_together(node_type, whole.node_type)), seed=7).ordinary_rows(COUNT):
+        exact = row | _exact_values(node_type)
+        (_, before), (place, after) = (plainly(whole.node_type, exact, dt=dt) for dt in (0.0, SOON))
+        (rate,) = plainly(node_type, exact)
+        _close((after - before) / SOON, rate, "its flow does not change the velocity as it declares", exact, 1e-3)
+        way = np.subtract(place, row["position"]) / SOON
+        _close(way, before, "its flow does not carry by the velocity", exact, 1e-3)
+
+
+def _together(one: NodeType, other: NodeType) -> tuple[str, ...]:
+    return tuple(dict.fromkeys((*one.arguments, *other.arguments)))
+
+
+def _exact_values(node_type: NodeType) -> Row:
+    """Return values of parameters under which `exact_if` holds."""
+    conditions = re.findall(r"(\w+) == ([\w.+-]+)", node_type.exact_if)
+    return {name: float(value.replace("infinity", "inf")) for name, value in conditions}
 
 
 def _rows(subject: Subject) -> list[Row]:
@@ -143,10 +167,11 @@ BY_ROLE = {
     "linear": (is_linear,),
     "noise": (is_proportional,),
     "flow": (composes, has_its_linear_form),
+    "acceleration": (has_its_exact_flow,),
     "surface": (has_a_surface, stops_a_way),
 }
 """The claims of each role."""
-ALL = (is_linear, is_proportional, composes, has_its_linear_form, has_a_surface, stops_a_way, does_nothing_when_neutral)
+ALL = tuple(dict.fromkeys((*sum(BY_ROLE.values(), ()), does_nothing_when_neutral)))
 
 
 def applies(subject: Subject, claim: Any) -> bool:
@@ -160,4 +185,6 @@ def applies(subject: Subject, claim: Any) -> bool:
         return ("start" in node_type.arguments) == (claim is stops_a_way)
     if claim is has_its_linear_form:
         return node_type.linear is not None
+    if claim is has_its_exact_flow:
+        return node_type.flow is not None
     return claim is not composes or not {"time", "frame"} & {*node_type.reserved}

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import inspect
+from dataclasses import replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from graphfx.contract.both_ways import BothWays, Columns
 from graphfx.contract.inputs import Inputs, Row
 from graphfx.node import NUMERIC_TYPES, Library, NodeType
+from graphfx.node.types import RESERVED
 
 _ON_LANES = (*NUMERIC_TYPES, "draw", "id", "mesh")
 
@@ -42,6 +46,20 @@ class Subject:
         """Whether its function is handed neither random numbers nor a particle's id."""
         kinds = map(self.node_type.argument_type, self.node_type.arguments)
         return self.is_function and not {"draw", "id"} & {*kinds}
+
+    @cached_property
+    def whole(self) -> Subject | None:
+        """The exact flow that an acceleration has beside its own function, as a node type of its own."""
+        flow = self.node_type.flow
+        if flow is None:
+            return None
+        names = tuple(inspect.signature(flow).parameters)
+        read = tuple(name for name in names if name not in self.node_type.parameters and name not in RESERVED)
+        declared: dict[str, Any] = {
+            "role": "flow", "function": flow, "arguments": names, "reads": read, "reserved": ("dt",),
+            "writes": ("position", "velocity"), "result": ("vec3", "vec3"), "flow": None,
+        }  # fmt: skip
+        return Subject(replace(self.node_type, **declared), self.library)
 
     @cached_property
     def both_ways(self) -> BothWays:

@@ -4,6 +4,7 @@ Random numbers are in `graphfx.math.random`.
 """
 
 from .exponential import exp, exp2, expm1
+from .kepler import kepler
 from .logarithmic import log, log2, power
 from .noise import curl_noise
 from .phi import cosinc, phi1, phi2, sin3, sinc
@@ -26,6 +27,6 @@ from .vec3 import Vec3, cross, dot, length, rotate, unit
 
 __all__ = [
     "Vec3", "absolute", "acos", "around", "atan2", "by_precision", "copysign", "cos", "cosinc", "cross", "curl_noise",
-    "dot", "exp", "exp2", "expm1", "floor", "fma", "length", "log", "log2", "maximum", "minimum", "on_unit_sphere", "phi1",
-    "phi2", "power", "rotate", "scale2", "sin", "sin3", "sinc", "sincos", "split2", "sqrt", "unit", "where",
+    "dot", "exp", "exp2", "expm1", "floor", "fma", "kepler", "length", "log", "log2", "maximum", "minimum", "on_unit_sphere",
+    "phi1", "phi2", "power", "rotate", "scale2", "sin", "sin3", "sinc", "sincos", "split2", "sqrt", "unit", "where",
 ]

@@ -10,6 +10,7 @@ from typing import Any
 from graphfx.errors import Location, NodeError, Problem, suggestion
 from graphfx.node.signature import (
     ParameterMark,
+    check_flow,
     check_read,
     check_result_names,
     check_results,
@@ -43,8 +44,8 @@ TRANSFORM = (
 
 
 def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any = (), language: bool = False,
-            neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None, branches: bool = False,
-            results: tuple[str, ...] = ()) -> NodeType:
+            neutral: str = "", exact_if: str = "", linear: Callable[..., Any] | None = None,
+            flow: Callable[..., Any] | None = None, branches: bool = False, results: tuple[str, ...] = ()) -> NodeType:
     """Read a function's signature into a `NodeType`; raise `NodeError` at the function's own line."""
     source = Path(inspect.getsourcefile(function) or "")
     location = Location(str(source), function.__code__.co_firstlineno)
@@ -63,6 +64,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     if stray:
         raise fail(f"a function of particles cannot use '{stray}'; it has graphfx.math, and random numbers come as the "
                    "argument `draw`")
+    check_flow(role, function, flow, exact_if, fail)
     signature = inspect.signature(function)
     known = (*RESERVED, *{"surface": WAY, "noise": NOISE}.get(role, ()))
     reads: list[str] = []
@@ -89,7 +91,7 @@ def declare(function: Callable[..., Any], kind: str, role: str, *, writes: Any =
     for both in given.keys() & parameters.keys():
         raise fail(f"parameter '{both}' is one that every {role} has besides; choose another name", at=both)
     return NodeType(name, kind, role, function, tuple(signature.parameters), tuple(reads), tuple(reserved), parameters | given,
-                    result, writes, neutral, exact_if, branches, language, doc, location, linear, tuple(results))
+                    result, writes, neutral, exact_if, branches, language, doc, location, linear, flow, tuple(results))
 
 
 def _given_to(role: str, reserved: list[str]) -> tuple[Parameter, ...]:
@@ -97,7 +99,7 @@ def _given_to(role: str, reserved: list[str]) -> tuple[Parameter, ...]:
     return {"surface": RESPONSE, "geometry": TRANSFORM}.get(role, PROCESS if "noise" in reserved else ())
 
 
-_OPTIONS = ("writes", "neutral", "exact_if", "linear", "branches", "results")
+_OPTIONS = ("writes", "neutral", "exact_if", "linear", "flow", "branches", "results")
 
 
 def _decorator(kind: str, role: str, **fixed: Any) -> Callable[..., Any]:
@@ -120,7 +122,9 @@ class operator:
 
     `neutral=` is a condition on the parameters under which the operator does nothing and is left out;
     `exact_if=` one under which it has an exact form that the engine knows: for a flow with `linear=`, the
-    function of a rate of change (its arguments are among the flow's), that it is then a linear operator;
+    function of a rate of change (its arguments are among the flow's), that it is then a linear operator; for an
+    acceleration with `flow=`, a function (its arguments are among the operator's, and position, velocity and dt), that
+    gives position and velocity after dt where nothing else acts;
     `branches=True` runs it lane by lane, thirteen times slower, so that its body may use `if`.
     """
 

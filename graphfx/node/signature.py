@@ -148,6 +148,24 @@ def check_results(role: str, writes: tuple[str, ...], result: tuple[str, ...], f
         raise fail(f"{gives}{verb} {_tuple(wanted)}, and it is annotated {_tuple(result)}")
 
 
+def check_flow(role: str, function: Callable[..., Any], flow: Callable[..., Any] | None, exact_if: str, fail: Fail) -> None:
+    """Raise `NodeError` where `flow=` is not the exact flow of an acceleration."""
+    if flow is None:
+        return
+    if role != "acceleration" or not exact_if:
+        raise fail("flow= is the exact flow of an acceleration, and needs exact_if=, the condition under which it has one: "
+                   '@operator.acceleration(flow=..., exact_if="softening == 0")')
+    known = {*inspect.signature(function).parameters, "position", "velocity", "dt"}
+    for name in inspect.signature(flow).parameters:
+        if name not in known:
+            raise fail(f"its flow {flow.__name__} takes '{name}', which is no argument of the operator, nor position, velocity "
+                       "or dt." + suggestion(name, known))
+    if result_types(inspect.signature(flow).return_annotation) != ("vec3", "vec3"):
+        raise fail(f"its flow {flow.__name__} gives position and velocity: annotate it -> tuple[Vec3, Vec3]")
+    if not (flow.__doc__ or "").strip().endswith("."):
+        raise fail(f"its flow {flow.__name__} needs a docstring, one sentence with a full stop: plans give it as reason")
+
+
 def check_result_names(names: tuple[str, ...], types: tuple[str, ...], fail: Fail) -> None:
     """Raise `NodeError` unless each of several results has a name."""
     if len(names) != len(types):

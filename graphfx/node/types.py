@@ -106,7 +106,7 @@ class NodeType:
     for values `value`, for language nodes their own name (`emit`, `image`, ...).
     `reads` are attributes in order of the signature; `arguments` all names in that order.
     `writes` are the attributes that the result replaces; `result` is its type(s).
-    `linear` is the rate of change that a flow has where `exact_if` holds.
+    Where `exact_if` holds, a flow has `linear`, its rate of change, and an acceleration `flow`, the whole motion.
     """
 
     name: str
@@ -126,6 +126,7 @@ class NodeType:
     doc: str = ""
     location: Location = field(default=Location())
     linear: Callable[..., Any] | None = None
+    flow: Callable[..., Any] | None = None
     results: tuple[str, ...] = ()
     """The names of a value's results, where it has several: `spot.normal`."""
 
@@ -137,7 +138,7 @@ class NodeType:
             return name
         if name in (*WAY, *NOISE) and name in self.reserved:
             return "vec3"
-        if name in self.reserved:
+        if name in RESERVED:
             return "float"
         return (ATTRIBUTES | DERIVED_ATTRIBUTES)[name].type
 

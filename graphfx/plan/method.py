@@ -60,7 +60,11 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Ch
     names = ", ".join(parts)
     if not inner:
         return Choice("exact", f"all motion is linear ({names}): {_how_exact(movers)}")
-    if len(inner) == 1 and not _has_role(movers, *LINEAR_ROLES) and _is_alone(inner[0], drifts):
+    lone = len(inner) == 1 and not _has_role(movers, *LINEAR_ROLES)
+    if lone and inner[0].whole is not None and inner[0].whole.time_free and asked in ("auto", "exact"):
+        name = inner[0].node.node_type.name
+        return Choice("exact", f"one acceleration with an exact flow ({name}): {_told(inner[0].whole)}")
+    if lone and _is_alone(inner[0], drifts):
         what = "one flow, which carries by the velocity too" if inner[0].carries else "one flow and nothing else"
         return Choice("exact", f"{what} ({inner[0].node.node_type.name}): one exact step")
     if asked == "exact":
@@ -109,6 +113,12 @@ def _of_order_one(movers: list[Mover]) -> str:
 def _is_alone(mover: Mover, drifts: bool) -> bool:
     """Return whether a flow is all of the motion, and the same at all times."""
     return mover.role == "flow" and mover.time_free and (mover.carries or not drifts)
+
+
+def _told(mover: Mover) -> str:
+    """Return what the first sentence of an exact flow's docstring says."""
+    sentence = (mover.function.body.__doc__ or "").strip().partition(".")[0]
+    return sentence[:1].lower() + sentence[1:]
 
 
 def _why_composed(inner: list[Mover]) -> str:

@@ -136,7 +136,7 @@ class Motion:
         inner = [mover for role in INNER_ROLES for mover in self.of(role)]
         alone = self.method == "exact" and bool(inner)
         if alone:
-            self._apply(inner[0], moment, state, moment.dt, alone)
+            self._apply(inner[0].whole or inner[0], moment, state, moment.dt, alone)
             return
         coefficients = self.linear.coefficients(moment, state, cell)
         drifts = self.has_velocity or coefficients.applied is not None
@@ -172,8 +172,8 @@ class Motion:
         builder = self.under_conditions(mover, moment)
         operands = self.arguments(mover, moment, state, {"dt": dt})
         if mover.role == "flow":
-            kept = mover.node.node_type.writes if alone or not mover.carries else ("velocity",)
-            written = [state.read(n) if n in kept else Column("unused", "vec3") for n in mover.node.node_type.writes]
+            kept = mover.writes if alone or not mover.carries else ("velocity",)
+            written = [state.read(n) if n in kept else Column("unused", "vec3") for n in mover.writes]
             builder.call(mover.function, *operands, into=tuple(written))  # type: ignore[arg-type]
             return
         name = "position" if mover.role == "velocity" else "velocity"

@@ -8,6 +8,7 @@ from typing import Any
 
 from graphfx.graph.flat import FlatNode
 from graphfx.motion.probe import LinearForm, probe
+from graphfx.node import NodeType
 from graphfx.plan.evaluate import holds
 from graphfx.plan.holder import is_brownian, names_in
 from graphfx.plan.rates import depends_on_time, lane_type
@@ -16,6 +17,8 @@ from graphfx.program import Function
 
 INNER_ROLES = ("flow", "velocity", "acceleration")
 """Roles of the operators that are composed around the linear motion."""
+STATE = ("position", "velocity")
+"""What the whole motion of a particle changes."""
 
 
 @dataclass
@@ -23,7 +26,8 @@ class Mover:
     """One operator of the motion, as it will run: its function, the names of its arguments, and its role.
 
     A linear one has a form. An `idle` one acts at no time that is simulated. `changing` are the attributes that are set
-    within a frame.
+    within a frame. An acceleration whose `exact_if` holds has its exact flow in `whole`: all motion of a particle on which
+    nothing else acts.
     """
 
     node: FlatNode
@@ -33,6 +37,13 @@ class Mover:
     form: LinearForm | None = None
     idle: bool = False
     changing: frozenset[str] = frozenset()
+    whole: Mover | None = None
+
+    @property
+    def writes(self) -> tuple[str, ...]:
+        """Return what its function gives, in order."""
+        declared = self.node.node_type
+        return STATE if self.role == "flow" and declared.role == "acceleration" else declared.writes
 
     @property
     def writes_velocity(self) -> bool:
@@ -47,7 +58,7 @@ class Mover:
     @property
     def carries(self) -> bool:
         """Return whether it is a flow that gives all of a particle's motion: its velocity carries it too."""
-        return self.role == "flow" and {"position", "velocity"} <= set(self.node.node_type.writes)
+        return self.role == "flow" and set(STATE) <= set(self.writes)
 
     @property
     def time_free(self) -> bool:
@@ -78,7 +89,7 @@ def mover_of(node: FlatNode, idle: bool = False, changing: frozenset[str] = froz
     """Return an operator as it will run.
 
     A flow whose `exact_if` holds runs as the linear operator that it then is; a linear operator without a simple form
-    is an acceleration.
+    is an acceleration. An acceleration whose `exact_if` holds stays one, and has its flow beside it.
     """
     node_type = node.node_type
     function, arguments, role = node_function(node_type), node_type.arguments, node_type.role
@@ -88,11 +99,20 @@ def mover_of(node: FlatNode, idle: bool = False, changing: frozenset[str] = froz
     if role == "linear" and "velocity" in node_type.writes:
         form = probe(function.body, arguments, function.arguments)
         role = "linear" if form is not None else "acceleration"
-    return Mover(node, function, arguments, role, form, idle, changing)
+    mover = Mover(node, function, arguments, role, form, idle, changing)
+    if node_type.flow is not None and holds(node, node_type.exact_if):
+        flow = _beside(node_type, node_type.flow, "flow", ("vec3", "vec3"))
+        mover.whole = Mover(node, *flow, "flow", idle=idle, changing=changing)
+    return mover
 
 
-def _rate_function(node_type: Any) -> tuple[Function, tuple[str, ...]]:
+def _rate_function(node_type: NodeType) -> tuple[Function, tuple[str, ...]]:
     """Return the rate of change that a flow has in its linear form."""
-    names = tuple(inspect.signature(node_type.linear).parameters)
+    return _beside(node_type, node_type.linear, "rate", ("vec3",))
+
+
+def _beside(node_type: NodeType, body: Any, kind: str, results: tuple[str, ...]) -> tuple[Function, tuple[str, ...]]:
+    """Return a function that a node type has beside its own, and the names of its arguments."""
+    names = tuple(inspect.signature(body).parameters)
     types = tuple(lane_type(node_type.argument_type(name)) for name in names)
-    return Function(f"{node_type.name}_rate", node_type.linear, types, ("vec3",)), names
+    return Function(f"{node_type.name}_{kind}", body, types, results), names

@@ -263,7 +263,7 @@ class _Lowering:
         return found if isinstance(found, tuple) else (found,)
 
 
-_functions: dict[int, Function] = {}
+_functions: dict[int, tuple[Any, Function]] = {}
 
 
 def node_function(node_type: Any) -> Function:
@@ -271,5 +271,6 @@ def node_function(node_type: Any) -> Function:
     if id(node_type) not in _functions:
         arguments = tuple(lane_type(node_type.argument_type(name)) for name in node_type.arguments)
         results = tuple(lane_type(name) for name in node_type.result)
-        _functions[id(node_type)] = Function(node_type.name, node_type.function, arguments, results, node_type.branches)
-    return _functions[id(node_type)]
+        made = Function(node_type.name, node_type.function, arguments, results, node_type.branches)
+        _functions[id(node_type)] = node_type, made
+    return _functions[id(node_type)][1]

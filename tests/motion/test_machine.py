@@ -29,6 +29,7 @@ CASES: dict[str, list[Any]] = {
         {"type": "attract_line", "axis": {"in_cone": {"angle": 20}}, "falloff": RAND},
         {"type": "gravity"},
     ],
+    "orbit": [{"type": "attract", "strength": RAND, "softening": 0, "as_force": True, "center": [0, 1, 0]}],
     "wind": [{"type": "wind", "wind": {"keys": [[0, [1, 0, 0]], [1, [0, 0, 2]]]}, "drag": RAND}, {"type": "gravity"}],
     "spring": [SPRING],
     "springs and all that is linear": [

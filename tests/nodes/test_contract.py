@@ -21,6 +21,7 @@ FAULTS = [
     ("inverted", "has_a_surface", "its normal does not point to greater distance with position="),
     ("steep", "has_a_surface", "its distance changes faster than the particle moves: position="),
     ("misled", "has_its_linear_form", "its linear form is not its rate of change: ["),
+    ("strayed", "has_its_exact_flow", "its flow does not change the velocity as it declares: ["),
     ("averted", "stops_a_way", "its plane does not part start from end with start="),
     ("busy", "does_nothing_when_neutral", "it says that it is neutral when strength == 0, and is not: ["),
     ("endless", "stays_finite_at_the_ends_of_draws", "it is not finite for the draw (0.0, 0.0, 0.0, 0.0) with "),
