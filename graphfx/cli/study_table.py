@@ -30,11 +30,12 @@ def show_study(study: Study) -> None:
 
 def _table(study: Study, heads: tuple[str, ...]) -> Any:
     from rich import box
+    from rich.markup import escape
     from rich.table import Table
 
-    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, title=_title(study), title_justify="left", title_style="bold")
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False, title=escape(_title(study)), title_justify="left", title_style="bold")
     for name in heads:
-        table.add_column(name, justify="left" if name == "setting" else "right", no_wrap=True)
+        table.add_column(escape(name), justify="left" if name == "setting" else "right", no_wrap=True)
 
     def add(result: Result, name: str, order: str, last: bool) -> None:
         row = dict(zip(HEADS, _row(study, result, name, order), strict=True))
@@ -88,9 +89,11 @@ def told(value: float, floor: float) -> str:
 
 def lines(study: Study) -> list[str]:
     """Return what is said below the table."""
-    from graphfx.study.recommend import advice
+    from graphfx.study.recommend import advice, by_reason
 
-    found, truth = [], study.truth
+    found, truth, own = [], study.truth, study.own
+    if own is not None and not own.message:
+        found += [f"as it is: {path}: {reason}" for path, reason in own.reasons.items()]
     if truth is not None:
         found.append(f"truth: {truth.references[0].name}")
         found.append(f"  checked by {truth.references[1].name}: they differ by {truth.difference.p95:.1e} m (95th percentile), "
@@ -102,7 +105,7 @@ def lines(study: Study) -> list[str]:
             found.append(f"  {truth.unknown:,} of {truth.particles:,} particles are left out where the references differ by more "
                          f"than a tenth of the tolerance")
     found += [f"failed: {name}: {message}" for message, name in _messages(study).items()]
-    found += [f"left out: {what}: {why}" for what, why in study.left_out]
+    found += [f"left out: {'; '.join(what)}: {why}" for why, what in by_reason(study).items()]
     advised = advice(study)
     name = f"{advised.result.candidate.name}: " if advised.result else ""
     return [*found, f"recommended: {name}{advised.reason}"]

@@ -70,10 +70,14 @@ def adaptive(order: int, tolerance: float) -> Setting:
 def planned(flat: FlatGraph) -> Plan:
     """Return the plan of a graph; where its method is `auto` and no motion is exact, after trying."""
     plan = make_plan(flat)
+    choices = choices_for(plan)
+    return make_plan(flat, choices=choices) if choices else plan
+
+
+def choices_for(plan: Plan) -> dict[str, Choice]:
+    """Return what `auto` chooses for the sources of a plan that wait for a choice."""
     waiting = [path for path, emitter in plan.emitters.items() if emitter.method == "strang"]
-    if flat.time.method != "auto" or not waiting:
-        return plan
-    return make_plan(flat, choices=Pilot.of(flat, waiting).choices())
+    return Pilot.of(plan.flat, waiting).choices() if plan.flat.time.method == "auto" and waiting else {}
 
 
 @dataclass

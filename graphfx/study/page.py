@@ -11,7 +11,7 @@ from graphfx.motion.clock import Clock
 from graphfx.study.candidates import FAMILIES, Family
 from graphfx.study.curves import MARKER_OF, STATISTICS, WHAT, along_the_shot, style_of, work_precision
 from graphfx.study.plot import MARKERS, svg
-from graphfx.study.recommend import advice, keeps, length
+from graphfx.study.recommend import advice, by_reason, keeps, length
 from graphfx.study.study import Result, Study, quartiles
 from graphfx.study.style import style
 
@@ -66,9 +66,9 @@ def _facts(study: Study) -> Iterator[tuple[str, str]]:
     if own is not None and not own.message:
         kept = keeps(own, study.tolerance)
         verdict = f'<span class="{"good" if kept else "bad"}">{"" if kept else "not "}within it</span>'
-        runs = escaped(" and ".join(own.methods))
-        setting = f"{own.candidate.setting}, {own.candidate.precision} bits"
-        yield "As it is", f"<code>{own.candidate.family.method}</code>: {runs}, {setting}; {length(own.errors.p95)}, {verdict}"
+        setting = f"<code>{own.candidate.family.method}</code>, {own.candidate.precision} bits"
+        yield "As it is", f"{setting}: {length(own.errors.p95)}, {verdict}, {own.evaluations:.3g} evaluations"
+        yield from ((f"&emsp;{escaped(path)}", f"<small>{escaped(reason)}</small>") for path, reason in own.reasons.items())
     several = "emitter" if len(study.particles) == 1 else "emitters"
     yield "Particles", f"{sum(study.particles.values()):,} births of {len(study.particles)} {several}, and their children"
     if truth is None:
@@ -197,7 +197,7 @@ def _left_out(study: Study) -> Iterator[str]:
         yield "</ul>"
     if study.left_out:
         yield "<h2>What was left out</h2><ul>"
-        yield from (f"<li><b>{escaped(what)}</b>: {escaped(why)}</li>" for what, why in study.left_out)
+        yield from (f"<li><b>{escaped('; '.join(what))}</b>: {escaped(why)}</li>" for why, what in by_reason(study).items())
         yield "</ul>"
 
 

@@ -51,6 +51,14 @@ def advice(study: Study) -> Advice:
     return Advice(best, reason)
 
 
+def by_reason(study: Study) -> dict[str, list[str]]:
+    """Return what was left out by the reason."""
+    found: dict[str, list[str]] = {}
+    for what, why in study.left_out:
+        found.setdefault(why, []).append(what)
+    return found
+
+
 def keeps(result: Result, tolerance: float) -> bool:
     """Return whether a setting keeps the tolerance, and loses no particle."""
     return result.sound and result.errors.p95 <= tolerance

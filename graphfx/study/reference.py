@@ -106,18 +106,20 @@ def _extrapolated(
     flat: FlatGraph, sample: Sample | None, frames: Sequence[int], tell: Callable[[str], None]
 ) -> tuple[Reference, Reference]:
     runs: list[Trial] = []
-    numbers = [BASE_STEPS, 2 * BASE_STEPS, 4 * BASE_STEPS]
+    numbers, method = [BASE_STEPS, 2 * BASE_STEPS, 4 * BASE_STEPS], "strang"
     for steps in numbers:
-        tell(f"strang with {steps} steps a frame, 64 bits")
-        runs.append(Trials(replace(flat, time=settings(flat.time, "strang", 64, steps)), sample).run(frames))
+        trials = Trials(replace(flat, time=settings(flat.time, "strang", 64, steps)), sample)
+        method = " and ".join(sorted({emitter.method for emitter in trials.plan.emitters.values()}))
+        tell(f"{method} with {steps} steps a frame, 64 bits")
+        runs.append(trials.run(frames))
     low = _joined(runs[0].states, runs[1].states, 4.0)
     high = _joined(runs[1].states, runs[2].states, 4.0)
     best = _joined(low, high, 16.0)
     seconds = [trial.seconds for trial in runs]
     told = "steps a frame, extrapolated to order"
     return (
-        Reference(f"strang with {numbers[0]}, {numbers[1]} and {numbers[2]} {told} 6, 64 bits", best, sum(seconds)),
-        Reference(f"strang with {numbers[1]} and {numbers[2]} {told} 4, 64 bits", high, sum(seconds[1:])),
+        Reference(f"{method} with {numbers[0]}, {numbers[1]} and {numbers[2]} {told} 6, 64 bits", best, sum(seconds)),
+        Reference(f"{method} with {numbers[1]} and {numbers[2]} {told} 4, 64 bits", high, sum(seconds[1:])),
     )
 
 

@@ -13,10 +13,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from graphfx.cook.pilot import choices_for
 from graphfx.cook.sample import Sample
 from graphfx.cook.trial import Trials, sample_of, spread_frames
 from graphfx.errors import GraphfxError
 from graphfx.graph.flat import FlatGraph
+from graphfx.plan.make import make_plan
 from graphfx.study.candidates import FAMILIES, PRECISIONS, Candidate, Family, candidates
 from graphfx.study.errors import Errors, observed_order
 from graphfx.study.reference import Truth, references, truth_of
@@ -38,6 +40,8 @@ class Result:
 
     candidate: Candidate
     methods: tuple[str, ...] = ()
+    reasons: dict[str, str] = field(default_factory=dict)
+    """How the motion of each source is computed, and why, as the plan says it."""
     errors: Errors = field(default_factory=Errors)
     by_frame: dict[int, float] = field(default_factory=dict)
     """The 95th percentile of the distances at each frame [m]."""
@@ -127,6 +131,7 @@ class Maker:
             study.left_out.append(("all settings", "the references disagree from the first frame on"))
             return
         study.frames = [frame for frame in study.frames if frame <= study.truth.until]
+        self.tell("the graph as it is", 0.0)
         own = Candidate(Family("the graph as it is", flat.time.method), flat.time.precision, flat.time.substeps)
         study.own = self._tried(study, own, flat, sample)
         try:
@@ -185,7 +190,8 @@ class Maker:
         result = Result(candidate)
         assert study.truth is not None
         try:
-            trials = Trials(flat, sample)
+            trials = Trials(flat, sample, choices=choices_for(make_plan(flat)))
+            result.reasons = {path: f"{emitter.method}; {emitter.reason}" for path, emitter in trials.plan.emitters.items()}
             result.methods = tuple(sorted({emitter.method for emitter in trials.plan.emitters.values()}))
             if candidate.family in FAMILIES and candidate.family.method not in result.methods:
                 return result
