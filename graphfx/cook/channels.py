@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook.beginnings import index_of
 from graphfx.cook.pictures import cameras_of, draw, window_of
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.streaks import Shown, way_of
@@ -79,14 +80,14 @@ def particle_columns(image: ImagePlan, simulation: Simulation, frame: int, shown
         window = window._replace(opening=max(window.closing - MOTION / fps, window.start))
     cameras = cameras_of(image, window, frame)
     for each in shown:
-        streaks = each.streaks if each.streaks.tail is not None else way_of(each, window)
+        streaks = each.streaks.drawn() if each.streaks.tail is not None else way_of(each, window)
         values: dict[str, np.ndarray] = {}
         if "velocity" in image.channels:
             values["velocity"] = screen_motion(streaks, *cameras, *image.size, window.length * fps)
         if "world_velocity" in image.channels:
             values["world_velocity"] = world_motion(streaks, window.length)
         if "id" in image.channels:
-            values["id"] = each.particles.store.column("id")[0][each.rows, None].astype(np.uint32)
+            values["id"] = each.particles.store.column("id")[0][index_of(each.rows)].astype(np.uint32)[:, None]
         if "stream" in image.channels:
             values["stream"] = np.full((streaks.count, 1), each.stream + 1, np.uint32)
         for channel, columns in values.items():

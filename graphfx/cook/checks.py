@@ -16,14 +16,14 @@ from graphfx.plan.make import Plan
 
 
 def problems_before(plan: Plan) -> list[Problem]:
-    """Return what is wrong with a plan: the names of its files, its size, cameras, meshes, polygons and background pictures."""
+    """Return what is wrong with a plan: file names, size, cameras, meshes, polygons, textures and background pictures."""
     time = plan.flat.time
     checks: list[Callable[[], object]] = [
         lambda: check_files(plan, Path(), range(time.first, min(time.first + 1, time.last) + 1)),
         lambda: check_limits(plan, CookLimits()),
         lambda: check_views(plan),
         lambda: _check_meshes(plan),
-        lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images),
+        lambda: PolygonMaker(Meshes(plan.flat)).prepare(plan.images, whole=True),
         lambda: backdrops_of(plan),
     ]
     problems: list[Problem] = []

@@ -6,6 +6,7 @@ effect.cook("out")
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Generator, Iterable, Mapping
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import closing
@@ -22,6 +23,7 @@ from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
+from graphfx.cook.memory import is_scarce, return_what_is_freed
 from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.pilot import planned
 from graphfx.cook.simulate import Simulation
@@ -41,7 +43,7 @@ class FrameReport:
 
     `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
     within one step that they were brought to rest, `failed` ones found no step short enough to go on (both counted since
-    the start).
+    the start). `faults` tell the stream and the attribute of those that were dropped.
     """
 
     frame: int
@@ -51,6 +53,7 @@ class FrameReport:
     restless: int
     failed: int
     files: tuple[Path, ...]
+    faults: tuple[tuple[str, str, int], ...] = ()
 
 
 class Effect:
@@ -98,12 +101,15 @@ class Effect:
         Movies are there when the last report was taken.
         """
         wanted = set(self._checked(frames))
+        if limits.memory is not None:
+            return_what_is_freed()
         simulation = self.simulation(threads, limits=limits)
         if not frames:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
         writer = Writer(self.plan, threads, limits.memory)
+        pixels = sum(math.prod(image.size) for image in self.plan.images)
         with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]):
@@ -111,6 +117,9 @@ class Effect:
                     continue
                 if warming is not None:
                     warming.wait()
+                if waiting is not None and is_scarce(limits.memory, pixels):
+                    yield _finished(*waiting)
+                    waiting = None
                 stills = {image.node.path: out / file_name(str(image.value("file")), self.flat.name, frame)
                           for image in self.plan.stills}
                 try:
@@ -126,6 +135,7 @@ class Effect:
                         for image in self.plan.stills]
                 jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
                 waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
+                del films  # each is let go of as soon as it is written
             if waiting is not None:
                 yield _finished(*waiting)
 
@@ -140,6 +150,7 @@ class Effect:
             sum(each.unfinished for each in particles),
             sum(each.failed for each in particles),
             tuple(files),
+            tuple(fault for film in films for fault in film.faults),
         )
 
     def _checked(self, frames: list[int]) -> list[int]:

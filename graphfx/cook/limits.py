@@ -16,6 +16,8 @@ from graphfx.plan.pictures import ImagePlan, plain_value
 
 BASE = 200_000_000
 """Bytes that graphfx takes without any particle: the interpreter, Numba, the kernels."""
+SURVEYED = 2
+"""Bytes of a particle, beside its own, while a picture is made patch by patch: the rows of tiles that it reaches."""
 COMPRESSED = 0.25
 """About what is left of a picture of particles when it is compressed."""
 
@@ -100,22 +102,22 @@ def _bytes_each(emitter: EmitterPlan) -> int:
 
 
 def _too_much_memory(plan: Plan, limits: CookLimits) -> Problem | None:
-    """Return that the particles and films alone would take more than the memory that is allowed."""
-    particles = sum(_alive(emitter, plan) * _bytes_each(emitter) for emitter in plan.emitters.values())
-    films = sum(16 * math.prod(image.size) for image in plan.images)
+    """Return that the particles and films alone would take more than the memory that is allowed; told where the most are born."""
+    each = {path: _alive(emitter, plan) * (_bytes_each(emitter) + SURVEYED) for path, emitter in plan.emitters.items()}
+    particles, films = sum(each.values()), sum(16 * math.prod(image.size) for image in plan.images)
     if limits.memory is None or particles + films + BASE <= limits.memory:
         return None
     needed, allowed = in_bytes(particles + films + BASE), in_bytes(limits.memory)
+    notes = (f"particles {in_bytes(particles)}, pictures {in_bytes(films)}, graphfx itself {in_bytes(BASE)}",)
     if limits.memory < BASE:
-        message = (f"graphfx itself takes about {in_bytes(BASE)} of memory, and {allowed} are allowed; allow more than {needed} "
-                   "with --memory")
-    else:
-        message = (f"about {needed} of memory are needed, and {allowed} are allowed; allow more with --memory, or lower the "
-                   "rate, the count or the life of the particles")
-    return Problem(
-        message,
-        notes=(f"particles {in_bytes(particles)}, pictures {in_bytes(films)}, graphfx itself {in_bytes(BASE)}",),
-    )
+        return Problem(f"graphfx itself takes about {in_bytes(BASE)} of memory, and {allowed} are allowed; allow {needed} "
+                       "with --memory", notes=notes)
+    message = f"about {needed} of memory are needed, and {allowed} are allowed; allow {needed} with --memory, or "
+    most = max(each, key=lambda path: each[path], default="")
+    if particles <= films:
+        return Problem(message + "make the pictures smaller", notes=notes)
+    return Problem(message + "lower the rate, the count or the life of the particles", plan.emitters[most].node.location,
+                   f"nodes.{most}", notes)
 
 
 def _too_many(emitter: EmitterPlan, plan: Plan, limits: CookLimits) -> Problem | None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from graphfx.cook.beginnings import NO_ROWS, NO_TIMES, Endings, Starts
 from graphfx.cook.bends import bends_of, new_knots
+from graphfx.cook.moments import pieces
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import Particles, flagged, padded, repeated
+from graphfx.cook.particles import Particles, padded, repeated
 from graphfx.cook.programs import Programs
 from graphfx.cook.rounds import MOST_ROUNDS, count_turns, new_rounds, put_back, taken, waiting
 from graphfx.cook.spawns import Occasion, Spawns
@@ -39,6 +42,11 @@ class Ends:
     hit: dict[str, tuple[np.ndarray, ...]] = field(default_factory=dict)
 
 
+Going = tuple[np.ndarray, np.ndarray, np.ndarray]
+"""Rows, from when they go on [s from the start of the interval], and how many steps of the frame they began."""
+NOBODY: Going = NO_ROWS, NO_TIMES, NO_TIMES
+
+
 @dataclass
 class Lives:
     """Runs the programs of one's own time, and what follows from them."""
@@ -47,17 +55,20 @@ class Lives:
     nursery: Nursery
     spawns: Spawns
 
-    def begin(self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray) -> None:
+    def begin(self, particles: Particles, interval: Interval, starts: Starts) -> None:
         """Tell the births of rows to those who spawn at them."""
-        self.spawns.at("birth", particles, interval, Occasion(rows, begin, np.zeros(len(rows)), {}))
+        if any(spawn.moment == "birth" for spawn in particles.plan.spawns):
+            for rows, begin in starts.pieces():
+                self.spawns.at("birth", particles, interval, Occasion(rows, begin, np.zeros(len(rows)), {}))
 
-    def go_on(self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray) -> None:
-        """Carry rows from `begin` to the end of the interval, or to their deaths."""
-        begun = np.zeros(len(rows))
-        for _ in range(MOST_TURNS):
-            if not len(rows):
+    def go_on(self, particles: Particles, interval: Interval, starts: Starts) -> None:
+        """Carry rows from when they start to the end of the interval, or to their deaths."""
+        going = self._turns(particles, interval, ((rows, begin, np.zeros(len(rows))) for rows, begin in starts.pieces()))
+        for _ in range(MOST_TURNS - 1):
+            if not len(going[0]):
                 return
-            rows, begin, begun = self._turn(particles, interval, rows, begin, begun)
+            cut = (tuple(column[start:stop] for column in going) for start, stop in pieces(0, len(going[0])))
+            going = self._turns(particles, interval, cut)
         recycles = particles.plan.holder.of_role("recycle")
         node = recycles[0] if recycles else particles.plan.node
         what, way = "hit something", "give the surfaces a higher event_speed"
@@ -66,10 +77,20 @@ class Lives:
         message = f"in frame {interval.frame} particles {what} more than {MOST_TURNS:,} times; {way}"
         raise CookError(Problem(message, node.location, f"nodes.{node.path}"))
 
+    def _turns(self, particles: Particles, interval: Interval, cut: Iterable[tuple[np.ndarray, ...]]) -> Going:
+        """Run some rows after others to their next events; return who goes on: first who met something, then who lives again."""
+        made = [self._turn(particles, interval, *piece) for piece in cut]
+        parts = [NOBODY, *(held for held, _ in made), *(again for _, again in made)]
+        rows, begin, begun = (np.concatenate(column) for column in zip(*parts, strict=True))
+        return rows, begin, begun
+
     def _turn(
         self, particles: Particles, interval: Interval, rows: np.ndarray, begin: np.ndarray, begun: np.ndarray
-    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Run to the next event of each row; return the rows that go on after it, from when, and the steps they began."""
+    ) -> tuple[Going, Going]:
+        """Run to the next event of each row; return the rows that go on after it, from when, and the steps they began.
+
+        First those who met something, then those who live again.
+        """
         plan = particles.plan
         death = np.maximum(particles.death(rows) - interval.start, begin) if plan.mortal else np.full(len(rows), np.inf)
         ends = self._run(particles, interval, rows, begin, np.minimum(death, interval.length), begun)
@@ -82,18 +103,17 @@ class Lives:
             self._tell_hits(particles, interval, rows, when, ends)
         gone = dies | natural | reborn
         kept = ends.fate == HELD
-        going, then, steps = [rows[kept]], [when[kept]], [ends.begun[kept]]
+        held_on, again_from = (rows[kept], when[kept], ends.begun[kept]), NOBODY
         if gone.any():
             renewed = self._die(particles, interval, rows[gone], when[gone])
             again = reborn | natural
             again[gone] &= reborn[gone] | renewed
             self._renew(particles, interval, rows[again], when[again])
             over = gone & ~again
-            particles.note_deaths(rows[over], interval.start + when[over])
-            going.append(rows[again])
-            then.append(when[again])
-            steps.append(np.where(reborn, ends.begun, 0.0)[again])  # a condition is looked at once a step
-        return np.concatenate(going), np.concatenate(then), np.concatenate(steps)
+            particles.endings.note(rows[over], interval.start + when[over])
+            steps = np.where(reborn, ends.begun, 0.0)  # a condition is looked at once a step
+            again_from = rows[again], when[again], steps[again]
+        return held_on, again_from
 
     def _run(
         self,
@@ -186,10 +206,11 @@ class Lives:
         if len(rows):
             particles.end_lives(rows, interval.start + when)
             self.nursery.renew(particles, rows, interval.start + when, interval)
-            self.begin(particles, interval, rows, when)
-            self.leave_trails(particles, interval, rows, when)
+            starts = Starts([(rows, when)])
+            self.begin(particles, interval, starts)
+            self.leave_trails(particles, interval, starts)
 
-    def leave_trails(self, particles: Particles, interval: Interval, rows: np.ndarray, since: np.ndarray) -> None:
+    def leave_trails(self, particles: Particles, interval: Interval, starts: Starts) -> None:
         """Make children along the paths of rows, from the times `since` on to the end of the interval or of their lives.
 
         A child's parent is carried to the instant of its birth on a copy, so its path may bend and bounce.
@@ -197,15 +218,21 @@ class Lives:
         for spawn in particles.plan.spawns:
             if spawn.rate is None:
                 continue
-            real = self.programs.real
-            until = np.full(len(rows), interval.length)
-            if particles.plan.mortal:
-                until = np.clip(particles.death(rows) - interval.start, since, until)
-            rate = padded(np.zeros(len(rows)), real)
-            given: dict[str, Any] = {"begin": (padded(since, real),), "rate": (rate,)}
-            self.programs.run(spawn.rate, particles, interval, rows, by_place=given)
-            steady = np.where(rate > 0, rate, 0.0)[: len(rows)].astype(np.float64)
-            self._leave(spawn, particles, interval, rows, since, until, steady)
+            for rows, since in starts.pieces():
+                self._leave_trail(spawn, spawn.rate, particles, interval, rows, since)
+
+    def _leave_trail(
+        self, spawn: SpawnPlan, made: FrameProgram, particles: Particles, interval: Interval, rows: np.ndarray, since: np.ndarray
+    ) -> None:
+        real = self.programs.real
+        until = np.full(len(rows), interval.length)
+        if particles.plan.mortal:
+            until = np.clip(particles.death(rows) - interval.start, since, until)
+        rate = padded(np.zeros(len(rows)), real)
+        given: dict[str, Any] = {"begin": (padded(since, real),), "rate": (rate,)}
+        self.programs.run(made, particles, interval, rows, by_place=given)
+        steady = np.where(rate > 0, rate, 0.0)[: len(rows)].astype(np.float64)
+        self._leave(spawn, particles, interval, rows, since, until, steady)
 
     def _leave(
         self,
@@ -260,24 +287,32 @@ class Lives:
         """Do what is set as a frame ends, on rows from `first` on, and end the lives of those who are killed then."""
         made = particles.plan.closing
         assert made is not None
-        rows = np.arange(first, particles.store.count)
-        kills = "fate" in made.program.stores
-        dying = flagged(particles.dying, particles.store.count)[first:]
-        placed = particles.plan.closing_at
+        kills, placed = "fate" in made.program.stores, particles.plan.closing_at
+        if first == 0 and not kills and (placed is None or not len(particles.dying)):
+            self.programs.run(made, particles, interval)
+            return
+        before = Endings([particles.endings.all()])
+        for start, stop in pieces(first, particles.store.count):
+            rows = np.arange(start, stop)
+            self._close_some(made, particles, interval, rows, before.of(rows))
+
+    def _close_some(
+        self, made: FrameProgram, particles: Particles, interval: Interval, rows: np.ndarray, ended: np.ndarray
+    ) -> None:
+        """Close the frame for some rows, of which some ended at a time [s]; the others did at infinity."""
+        kills, placed = "fate" in made.program.stores, particles.plan.closing_at
+        dying = np.isfinite(ended)
         listed = rows if placed is None else rows[~dying]
         fate = padded(np.zeros(len(listed)), self.programs.real)
-        whole = None if len(listed) == particles.store.count and not kills else listed
-        self.programs.run(made, particles, interval, whole, by_place={"fate": (fate,)} if kills else None)
+        self.programs.run(made, particles, interval, listed, by_place={"fate": (fate,)} if kills else None)
         if placed is not None and dying.any():
-            ended = np.full(particles.store.count, interval.length)
-            ended[particles.dying] = particles.ended_at - interval.start
-            begin = padded(ended[rows[dying]], self.programs.real)
+            begin = padded(ended[dying] - interval.start, self.programs.real)
             self.programs.run(placed, particles, interval, rows[dying], by_place={"begin": (begin,)})
         if kills:
-            killed = listed[(fate[: len(listed)] > 0) & ~flagged(particles.dying, particles.store.count)[listed]]
+            killed = listed[(fate[: len(listed)] > 0) & ~dying[listed - rows[0]]]
             when = np.full(len(killed), interval.length)
             self._die(particles, interval, killed, when)
-            particles.note_deaths(killed, interval.start + when)
+            particles.endings.note(killed, interval.start + when)
 
 
 def _kept(hit: dict[str, tuple[np.ndarray, ...]], chosen: np.ndarray) -> dict[str, tuple[np.ndarray, ...]]:

@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import contextlib
+import ctypes
 import os
 import sys
 from pathlib import Path
 
-LEFT = 48 << 20
-"""Bytes left for what else goes on while a picture is made: pictures on their way to files, the next kernels."""
+LEFT = 16 << 20
+"""Bytes left for what else goes on while a picture is made: room for the threads, the next kernels."""
+PIXEL = 16
+"""Bytes of a pixel in a film."""
+MMAP_THRESHOLD = -3
+"""The number of that setting of mallopt, see mallopt(3)."""
+FEW = 8
+"""Films; where no more than these have room, a film is written before the next is made, and not beside it."""
 SHARE = 0.5
 """Part of the available memory that a picture may take where no limit is given."""
 
@@ -18,10 +26,31 @@ def working_memory(allowed: int | None, pixels: int) -> float:
     `allowed` is what the whole process may take, or half of what is available if it is not given. No byte of a picture depends
     on it.
     """
-    film = 16 * pixels
+    film = PIXEL * pixels
     if allowed is not None:
+        return_unused()
         return allowed - resident() - film - LEFT
     return SHARE * available() - film
+
+
+def is_scarce(allowed: int | None, pixels: int) -> bool:
+    """Return whether only a few films of so many pixels would have room in what the process may take."""
+    return allowed is not None and working_memory(allowed, pixels) < FEW * PIXEL * pixels
+
+
+def return_what_is_freed() -> None:
+    """From now on have what is larger than a megabyte returned to the system when it is freed, where the C library can (glibc).
+
+    Otherwise it keeps what was freed, in pieces that the next array may not fit into.
+    """
+    with contextlib.suppress(AttributeError, OSError, TypeError):
+        ctypes.CDLL(None).mallopt(MMAP_THRESHOLD, 1 << 20)
+
+
+def return_unused() -> None:
+    """Give memory that was freed back to the system, where the C library keeps it (glibc)."""
+    with contextlib.suppress(AttributeError, OSError, TypeError):
+        ctypes.CDLL(None).malloc_trim(0)
 
 
 def available() -> float:

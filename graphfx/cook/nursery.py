@@ -7,7 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.particles import NO_ROWS, Arrivals, Particles, padded
+from graphfx.cook.beginnings import NO_ROWS, index_of, numbers_of
+from graphfx.cook.moments import Moments, pieces
+from graphfx.cook.particles import Arrivals, Particles, padded
 from graphfx.cook.programs import Programs
 from graphfx.cook.sample import Sample
 from graphfx.lanes.compile import compiled
@@ -28,18 +30,27 @@ class Nursery:
     programs: Programs
     sample: Sample | None = None
 
-    def bear(self, particles: Particles, times: np.ndarray, interval: Interval) -> tuple[np.ndarray, np.ndarray]:
-        """Add the particles that an emitter makes at `times`, as far as they are simulated; return their rows and times."""
-        first = particles.store.take_ordinals(len(times))
-        ids = np.arange(first, first + len(times), dtype=np.uint64)
-        if self.sample is not None:
-            chosen = self.sample.births(particles.plan.path, first, len(times))
-            ids, times = ids[chosen], times[chosen]
+    def bear(self, particles: Particles, times: Moments, interval: Interval) -> tuple[range, Moments]:
+        """Add the particles that an emitter makes at `times`, as far as they are simulated, some at a time.
+
+        Return their rows and times.
+        """
+        path, store, first = particles.plan.path, particles.store, particles.store.take_ordinals(len(times))
+        chosen = self.sample.births(path, first, len(times)) if self.sample is not None and path in self.sample.ordinals else None
+        if chosen is not None:
+            times = times.chosen(chosen)
         if not len(times):
-            return NO_ROWS, times
-        rows = self._rows(particles, len(times), ids)
-        self._give(particles, particles.plan.path, rows, times, ids, interval, {})
-        return rows, times
+            return range(0), times
+        added = store.allocate(len(times))
+        for start, stop in pieces(0, len(times)):
+            places = np.arange(start, stop) if chosen is None else chosen[start:stop]
+            ids = (places + first).astype(np.uint64)
+            rows = range(added.start + start, added.start + stop)
+            self._name(particles, rows, ids)
+            self._give(particles, path, rows, times.between(start, stop), ids, interval, {})
+        born = range(added.start, added.stop)
+        particles.beginnings.note(born, times)
+        return born, times
 
     def receive(self, particles: Particles, interval: Interval) -> tuple[np.ndarray, np.ndarray]:
         """Add the children that have arrived, in order of time, parent and copy; return their rows and when they begin."""
@@ -47,8 +58,11 @@ class Nursery:
         rows, begins = [NO_ROWS], [np.zeros(0)]
         for maker in dict.fromkeys(arrivals.maker for arrivals in waiting):
             batch = _merged([arrivals for arrivals in waiting if arrivals.maker == maker])
-            rows.append(self._rows(particles, len(batch.times), batch.ids))
+            added = particles.store.allocate(len(batch.times))
+            rows.append(np.arange(added.start, added.stop))
+            self._name(particles, rows[-1], batch.ids)
             self._give(particles, maker, rows[-1], batch.times, batch.ids, interval, batch.given)
+            particles.beginnings.note(rows[-1], batch.times)
             begins.append(np.maximum(batch.times - interval.start, 0.0))
         return np.concatenate(rows), np.concatenate(begins)
 
@@ -67,19 +81,18 @@ class Nursery:
         }
         ids = store.column("id")[0][rows]
         self._give(particles, particles.plan.path, rows, times, ids, interval, given)
+        particles.beginnings.note(rows, times)
 
-    def _rows(self, particles: Particles, count: int, ids: np.ndarray) -> np.ndarray:
-        store = particles.store
-        added = store.allocate(count)
-        if "id" in store.columns:
-            store.arrays("id")[0][added] = ids
-        return np.arange(added.start, added.stop, dtype=np.int64)
+    @staticmethod
+    def _name(particles: Particles, rows: range | np.ndarray, ids: np.ndarray) -> None:
+        if "id" in particles.store.columns:
+            particles.store.arrays("id")[0][index_of(rows)] = ids
 
     def _give(
         self,
         particles: Particles,
         maker: str,
-        rows: np.ndarray,
+        rows: range | np.ndarray,
         times: np.ndarray,
         ids: np.ndarray,
         interval: Interval,
@@ -88,7 +101,7 @@ class Nursery:
         """Find the attributes of rows that begin a life at `times`."""
         store, real = particles.store, self.programs.real
         if "birth" in store.columns:
-            store.arrays("birth")[0][rows] = times
+            store.arrays("birth")[0][index_of(rows)] = times
         made = particles.plan.births[maker]
         by_place: dict[str, tuple[np.ndarray, ...]] = {
             "birth_id": (padded(ids, np.uint64),),
@@ -99,9 +112,8 @@ class Nursery:
         for name in particles.plan.holder.clusters:
             if f"number {name}" in made.program.loads and f"number {name}" not in given:
                 by_place[f"number {name}"] = (padded(self._numbers(particles, name, by_place, interval, len(rows)), real),)
-        self.programs.run(made, particles, interval, rows, by_place=by_place)
+        self.programs.run(made, particles, interval, numbers_of(rows), by_place=by_place)
         particles.put_places(rows)
-        particles.note_births(rows, times)
 
     def _numbers(self, particles: Particles, name: str, by_place: dict[str, Any], interval: Interval, count: int) -> np.ndarray:
         """Return the numbers of new particles in a cluster."""

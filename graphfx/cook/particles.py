@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.cook.beginnings import NO_ROWS, Beginnings, Endings, index_of, places_in
 from graphfx.cook.births import Births
+from graphfx.cook.moments import pieces
 from graphfx.plan.make import EmitterPlan
 from graphfx.store.processors import BLOCK, ProcessorSet
-
-NO_ROWS = np.zeros(0, np.int64)
 
 
 @dataclass
@@ -41,6 +41,17 @@ class Bends:
         kept = self.rows[which]
         return Bends(kept if rows is None else rows[kept], self.times[which], self.places[:, which])
 
+    def by_row(self) -> Bends:
+        """Return the same, the rows ascending."""
+        if (self.rows[1:] >= self.rows[:-1]).all():
+            return self
+        return self.chosen(np.argsort(self.rows, kind="stable"))
+
+    def between(self, start: int, stop: int) -> Bends:
+        """Return those of the rows start ... stop - 1, where the rows ascend."""
+        low, high = np.searchsorted(self.rows, (start, stop))
+        return Bends(self.rows[low:high], self.times[low:high], self.places[:, low:high])
+
     def joined(self, others: Bends) -> Bends:
         """Return these and others after them."""
         return Bends(
@@ -56,8 +67,8 @@ class Particles:
 
     `carried` counts particles and frames in which they took steps of their own, those at rest left out, `turns` those
     steps, refused ones too, `failed` those who found none short enough, and `unfinished` who met surfaces too often.
-    `dying` are the rows whose life ended in the interval before the frame; they are removed as the next begins.
-    `born` are the rows that began a life in it, at the times `born_at`; `ended_at` says when the dying did.
+    `endings` are of the rows whose life ended in the interval before the frame; they are removed as the next begins.
+    `beginnings` are of the rows that began a life in it.
     Pictures look back to `since` [s]: `bends` are hits after that, and `past` holds those whose lives ended after it and
     that are gone, or live again; there, all are dying.
     """
@@ -65,10 +76,8 @@ class Particles:
     plan: EmitterPlan
     store: ProcessorSet
     births: Births | None
-    dying: np.ndarray = field(default_factory=lambda: NO_ROWS)
-    ended_at: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    born: np.ndarray = field(default_factory=lambda: NO_ROWS)
-    born_at: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    beginnings: Beginnings = field(default_factory=Beginnings)
+    endings: Endings = field(default_factory=Endings)
     unfinished: int = 0
     failed: int = 0
     turns: int = 0
@@ -79,6 +88,16 @@ class Particles:
     since: float = -np.inf
     bends: Bends = field(default_factory=Bends)
     past: Particles | None = None
+
+    @property
+    def dying(self) -> np.ndarray:
+        """Return the rows whose life ended in the interval, ascending."""
+        return self.endings.all()[0]
+
+    @property
+    def ended_at(self) -> np.ndarray:
+        """Return when the dying ended [s]."""
+        return self.endings.all()[1]
 
     @property
     def alive(self) -> int:
@@ -115,6 +134,11 @@ class Particles:
             return self.store.column("birth")[0][rows] + self.store.column("life")[0][rows]
         return self.store.column("birth")[0][rows] + float(self.value("life"))
 
+    def dead_by(self, time: float, count: int) -> np.ndarray:
+        """Return which of the first rows die of age until a time [s]."""
+        found = [start + np.flatnonzero(self.death(slice(start, stop)) <= time) for start, stop in pieces(0, count)]
+        return np.concatenate(found) if found else NO_ROWS
+
     def begin_frame(self, since: float) -> None:
         """Remove the particles that died before the frame, and hand on the places that pictures need since `since` [s]."""
         self.since = since
@@ -125,29 +149,31 @@ class Particles:
             self.past._hand_on()
         self._remove(self.dying)
         self.bends = self.bends.chosen(self.bends.times > since)
-        self.dying, self.ended_at = NO_ROWS, np.zeros(0)
-        self.born, self.born_at = NO_ROWS, np.zeros(0)
+        self.beginnings, self.endings = Beginnings(), Endings()
         self._hand_on()
 
-    def _remove(self, dead: np.ndarray) -> np.ndarray:
-        """Remove rows; return the new row of each old one."""
+    def _remove(self, dead: np.ndarray) -> None:
+        """Remove rows."""
         if not len(dead):
-            return np.arange(self.store.count)
-        alive = ~flagged(dead, self.store.count)
-        rows = np.cumsum(alive) - 1
+            return
+        if len(self.bends.rows):
+            alive, rows = self._left(dead)
+            self.bends = self.bends.chosen(alive[self.bends.rows], rows)
         self.store.kill(dead)
         self.store.compact()
-        self.bends = self.bends.chosen(alive[self.bends.rows], rows)
-        return rows
+
+    def _left(self, dead: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return which rows are left without the dead, and the new row of each."""
+        alive = ~flagged(dead, self.store.count)
+        return alive, np.cumsum(alive) - 1
 
     def _forget(self, which: np.ndarray) -> None:
         """Remove some of those that are past, where all are dying."""
         if not which.any():
             return
-        kept = ~which[self.born]
-        rows = self._remove(np.flatnonzero(which))
-        self.born, self.born_at = rows[self.born[kept]], self.born_at[kept]
-        self.dying, self.ended_at = np.arange(self.store.count), self.ended_at[~which]
+        self.beginnings = self.beginnings.kept(*self._left(np.flatnonzero(which)))
+        self._remove(np.flatnonzero(which))
+        self.endings = Endings([(np.arange(self.store.count), self.ended_at[~which])])
 
     def _hand_on(self) -> None:
         """Let the columns of instants take over what was found a frame before, the earliest first."""
@@ -171,35 +197,22 @@ class Particles:
         for name in self.store.columns:
             for target, source in zip(past.store.arrays(name), self.store.arrays(name), strict=True):
                 target[added] = source[rows]
-        there = np.full(self.store.count, -1, np.int64)
-        there[rows] = np.arange(added.start, added.stop)
-        past.bends = past.bends.joined(self.bends.chosen(there[self.bends.rows] >= 0, there))
-        late = there[self.born] >= 0
-        past.born = np.concatenate([past.born, there[self.born[late]]])
-        past.born_at = np.concatenate([past.born_at, self.born_at[late]])
-        past.dying, past.ended_at = np.arange(past.store.count), np.concatenate([past.ended_at, times])
+        there = np.arange(added.start, added.stop)
+        order = np.argsort(rows)
+        here, places = places_in(rows[order], self.bends.rows)
+        bends = Bends(there[order[places]], self.bends.times[here], self.bends.places[:, here])
+        past.bends = past.bends.joined(bends)
+        begun = self.beginnings.of(rows)
+        late = begun > -np.inf
+        past.beginnings.note(there[late], begun[late])
+        past.endings = Endings([(np.arange(past.store.count), np.concatenate([past.ended_at, times]))])
 
-    def note_births(self, rows: np.ndarray, times: np.ndarray) -> None:
-        """Note which rows begin a life within the interval, and when; the last beginning counts."""
-        if len(self.born):
-            kept = ~flagged(rows, self.store.count)[self.born]
-            self.born, self.born_at = self.born[kept], self.born_at[kept]
-        self.born = np.concatenate([self.born, rows])
-        self.born_at = np.concatenate([self.born_at, times])
-
-    def note_deaths(self, rows: np.ndarray, times: np.ndarray) -> None:
-        """Note which rows end within the interval, and when."""
-        rows, times = np.concatenate([self.dying, rows]), np.concatenate([self.ended_at, times])
-        order = np.argsort(rows, kind="stable")
-        self.dying, self.ended_at = rows[order], times[order]
-
-    def put_places(self, rows: np.ndarray, all_instants: bool = True) -> None:
+    def put_places(self, rows: range | np.ndarray, all_instants: bool = True) -> None:
         """Put the places of rows at all instants, or at those within the frame, where they are."""
-        if not len(rows):
-            return
+        which = index_of(rows)
         for instant in self.plan.exposure.instants if all_instants else self.plan.exposure.within:
             for place, position in zip(self.store.arrays(instant.column), self.store.arrays("position"), strict=True):
-                place[rows] = position[rows]
+                place[which] = position[which]
 
 
 def flagged(rows: np.ndarray, count: int) -> np.ndarray:

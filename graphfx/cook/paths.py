@@ -55,26 +55,25 @@ class Lives:
     """Less than or equal to 0 for those who are not seen."""
 
 
-def lives_of(particles: Particles, window: Window) -> Lives | None:
-    """Return when particles are seen; None if all are, all the time."""
-    deep = particles.plan.exposure.deep
-    if not (deep or len(particles.dying) or (particles.born_at > window.opening).any()):
-        return None
-    born, died = _lifetimes(particles)
+def all_seen(particles: Particles, window: Window) -> bool:
+    """Return whether all are seen, all the time."""
+    return not (particles.plan.exposure.deep or len(particles.dying) or particles.beginnings.any_after(window.opening))
+
+
+def lives_of(particles: Particles, window: Window, rows: np.ndarray) -> Lives:
+    """Return when rows are seen."""
+    born, died = _lifetimes(particles, rows)
     begin, end = np.maximum(born, window.opening), np.minimum(died, window.closing)
     if window.length > 0:
         return Lives(begin, end, (end - begin) / window.length)
     return Lives(begin, end, ((born <= window.closing) & (died > window.closing)).astype(float))
 
 
-def _lifetimes(particles: Particles) -> tuple[np.ndarray, np.ndarray]:
-    """Return when particles were born and died [s], as far as pictures can see; -infinity and infinity beyond that."""
-    store = particles.store
-    born, died = np.full(store.count, -np.inf), np.full(store.count, np.inf)
+def _lifetimes(particles: Particles, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return when rows were born and died [s], as far as pictures can see; -infinity and infinity beyond that."""
+    born, died = particles.beginnings.of(rows), particles.endings.of(rows)
     if particles.plan.exposure.deep:
-        born[:] = store.column("birth")[0]
-    born[particles.born] = particles.born_at
-    died[particles.dying] = particles.ended_at
+        born = np.where(born > -np.inf, born, particles.store.column("birth")[0][rows])
     return born, died
 
 
@@ -82,7 +81,7 @@ def ways_of(particles: Particles, rows: np.ndarray, window: Window) -> Ways:
     """Return the ways of rows through the instants that are kept."""
     kept = particles.plan.exposure.instants
     instants = [instant for instant in kept if window.uses(instant, instant is kept[-1])]
-    born, died = (times[rows] for times in _lifetimes(particles))
+    born, died = _lifetimes(particles, rows)
     times, places = [np.minimum(died, window.time)], [_places(particles, "position", rows)]
     for instant in instants:
         time = np.maximum(max(window.time - instant.back / window.fps, window.start), born)

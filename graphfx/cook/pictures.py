@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
 from graphfx.cook.cameras import camera_at
+from graphfx.cook.faults import faults_of
 from graphfx.cook.memory import working_memory
 from graphfx.cook.particles import Particles, padded
 from graphfx.cook.paths import Window
@@ -43,6 +43,16 @@ def draw(
             particles, _selected(simulation, particles, drawn), drawn.looks, window, cameras[0] != cameras[1], number
         )
     ]
+    film = _film(image, simulation, frame, threads, memory, shown, cameras, window, sampling)
+    if film.dropped:
+        film.faults = faults_of(shown, image, film.dropped)
+    return film
+
+
+def _film(
+    image: ImagePlan, simulation: Simulation, frame: int, threads: int, memory: int | None, shown: list[Shown],
+    cameras: tuple[Camera, Camera], window: Window, sampling: Sampling | None,
+) -> Film:
     streams = [each.streaks for each in shown]
     polygons = [simulation.polygons.polygons(node, window.closing, frame) for node in image.polygons]
     if image.node.node_type.role == "preview":
@@ -52,7 +62,7 @@ def draw(
     width, height = image.size
     return render(
         streams, *cameras, width, height, threads, sampler=sampler, polygons=polygons, lighting=lighting,
-        memory=working_memory(memory, width * height), cutoff=float(image.value("cutoff")),
+        memory=working_memory(memory, width * height), cutoff=float(image.value("cutoff", window.time, frame)),
     )
 
 
@@ -79,11 +89,10 @@ def _sources(simulation: Simulation, drawn: Drawn) -> list[Particles]:
 
 
 def _selected(simulation: Simulation, particles: Particles, drawn: Drawn) -> np.ndarray | None:
-    """Return the rows that a stream's selection passes, or None for all."""
+    """Return for each row whether a stream's selection passes it, or None for all."""
     if drawn.selection is None:
         return None
     count = particles.store.count
-    selected = padded(np.zeros(count), np.uint8)
-    given: dict[str, Any] = {"selected": (selected,)}
-    simulation.programs.run(drawn.selection, particles, simulation.interval, np.arange(count), by_place=given)
-    return np.flatnonzero(selected[:count])
+    selected = padded(np.zeros(count, np.uint8), np.uint8)
+    simulation.programs.run(drawn.selection, particles, simulation.interval, by_place={"selected": (selected,)})
+    return selected[:count]

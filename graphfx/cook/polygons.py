@@ -30,19 +30,22 @@ class PolygonMaker:
         self._kept: dict[tuple[str, bool], tuple[Standing, tuple[Mesh, np.ndarray | None]]] = {}
         self._textures: dict[tuple[str, bool, bool], Texture] = {}
 
-    def prepare(self, images: Iterable[ImagePlan]) -> None:
-        """Make the meshes of pictures and look at their maps; raise GraphError with all that keeps them from being drawn."""
+    def prepare(self, images: Iterable[ImagePlan], whole: bool = False) -> None:
+        """Make the meshes of pictures and look at their maps; raise GraphError with all that keeps them from being drawn.
+
+        Of the maps only the beginnings are read, unless the `whole` is to be.
+        """
         problems = [problem for node in {node.path: node for image in images for node in image.polygons}.values()
-                    for problem in self._problems(node)]
+                    for problem in self._problems(node, whole)]
         if problems:
             raise GraphError(problems)
 
-    def _problems(self, node: FlatNode) -> Iterator[Problem]:
+    def _problems(self, node: FlatNode, whole: bool) -> Iterator[Problem]:
         for name in MAPS:
             file = str(plain_value(node.arguments[name]))
             try:
                 if file:
-                    check_texture(file)
+                    check_texture(file, whole)
             except (GraphError, LimitError) as error:
                 yield from _at(node, name, error)
         try:

@@ -10,12 +10,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from graphfx.cook.beginnings import NO_ROWS, Start, Starts
 from graphfx.cook.births import Births
 from graphfx.cook.executor import Executor
 from graphfx.cook.lives import Lives
 from graphfx.cook.meshes import Meshes
+from graphfx.cook.moments import moments, pieces
 from graphfx.cook.nursery import Nursery
-from graphfx.cook.particles import NO_ROWS, Particles, flagged, padded
+from graphfx.cook.particles import Particles, flagged, padded
 from graphfx.cook.polygons import PolygonMaker
 from graphfx.cook.programs import Programs
 from graphfx.cook.sample import Sample
@@ -74,8 +76,8 @@ class Simulation:
         beginning = self.interval
         for particles in self.particles.values():
             if particles.births is not None:
-                born, _ = self.nursery.bear(particles, particles.births.at_start(), beginning)
-                self.lives.begin(particles, beginning, born, np.zeros(len(born)))
+                born, times = self.nursery.bear(particles, particles.births.at_start(), beginning)
+                self.lives.begin(particles, beginning, Starts([(born, times)], beginning.start))
             self._arrive(particles, beginning)
         self._settle(beginning)
         if self.clock.preroll == 0 and last >= self.clock.first:
@@ -114,53 +116,60 @@ class Simulation:
     def _arrive(self, particles: Particles, interval: Interval) -> None:
         rows, begin = self.nursery.receive(particles, interval)
         if len(rows):
-            self.lives.begin(particles, interval, rows, begin)
-            self.lives.leave_trails(particles, interval, rows, begin)
-            self.lives.go_on(particles, interval, rows, begin)
+            starts = Starts([(rows, begin)])
+            self.lives.begin(particles, interval, starts)
+            self.lives.leave_trails(particles, interval, starts)
+            self.lives.go_on(particles, interval, starts)
 
     def _advance(self, particles: Particles, interval: Interval) -> None:
         """Carry one source's particles over an interval."""
         store, plan = particles.store, particles.plan
         particles.begin_frame(interval.end - plan.exposure.reach / self.clock.fps)
         before = store.count
-        times = particles.births.within(interval) if particles.births is not None else np.zeros(0)
+        times = particles.births.within(interval) if particles.births is not None else moments()
         born, times = self.nursery.bear(particles, times, interval)
-        begin = times - interval.start
-        self.lives.begin(particles, interval, born, begin)
+        self.lives.begin(particles, interval, Starts([(born, times)], interval.start))
         arrived, arrived_begin = self.nursery.receive(particles, interval)
-        self.lives.begin(particles, interval, arrived, arrived_begin)
-        dying = np.flatnonzero(particles.death(slice(before)) <= interval.end) if plan.mortal else NO_ROWS
-        since = np.concatenate([np.zeros(before), begin, arrived_begin])
-        self.lives.leave_trails(particles, interval, np.arange(particles.store.count), since)
-        rejected = NO_ROWS
-        if plan.main is None and plan.own is not None:
-            rejected = np.arange(before)
-        elif plan.main is not None:
-            if interval.length * self.clock.fps > 1 - 1e-9:
-                rejected = self.programs.run(plan.main, particles, interval, excluded=dying, count=before)
-            else:  # a shorter interval begins the preroll; the shutter opens in another of its steps than is usual
-                rejected = np.arange(before)
+        self.lives.begin(particles, interval, Starts([(arrived, arrived_begin)]))
+        dying = particles.dead_by(interval.end, before) if plan.mortal else NO_ROWS
+        new: list[Start] = [(born, times), (arrived, arrived_begin)]
+        self.lives.leave_trails(particles, interval, Starts([(range(before), 0.0), *new], interval.start))
+        old = self._carry(particles, interval, before, dying)
+        particles.put_places(old, all_instants=False)
+        self.lives.go_on(particles, interval, Starts([(old, 0.0), *new], interval.start))
+
+    def _carry(self, particles: Particles, interval: Interval, before: int, dying: np.ndarray) -> range | np.ndarray:
+        """Carry the rows before a number over whole steps; return those, the dying too, that need times of their own."""
+        main, rejected = particles.plan.main, NO_ROWS
+        if main is None and particles.plan.own is not None:
+            return range(before)
+        if main is not None:
+            if interval.length * self.clock.fps <= 1 - 1e-9:
+                return range(before)  # it begins the preroll; the shutter opens in another of its steps than is usual
+            rejected = self.programs.run(main, particles, interval, excluded=dying, count=before)
+        if not len(rejected) or not len(dying):
+            return dying if len(dying) else rejected
         either = flagged(dying, before)
         either[rejected] = True
-        old = np.flatnonzero(either)
-        particles.put_places(old, all_instants=False)
-        rows = np.concatenate([old, born, arrived])
-        self.lives.go_on(particles, interval, rows, np.concatenate([np.zeros(len(old)), begin, arrived_begin]))
+        return np.flatnonzero(either)
 
     def _close(self, particles: Particles, interval: Interval, first: int) -> None:
         """Do what is done with rows from `first` on as the frame ends: places at instants, what is set, who is killed."""
         plan = particles.plan
-        rows = np.arange(first, particles.store.count)
-        born = np.full(particles.store.count, -np.inf)
-        born[particles.born] = particles.born_at - interval.start
         instants = self.programs.instants(particles, interval)
         for instant in plan.exposure.within if plan.places else []:
             at_instant, at_birth = plan.places[instant.column]
             if plan.main is None or instant.column not in plan.main.program.stores:
-                particles.put_places(rows, all_instants=False)
-            self.programs.run(at_instant, particles, interval, rows if first else None)
-            late = rows[born[rows] > instants[instant.time]]
-            begin = padded(born[late], self.programs.real)
-            self.programs.run(at_birth, particles, interval, late, by_place={"begin": (begin,)})
+                particles.put_places(range(first, particles.store.count), all_instants=False)
+            if not first:
+                self.programs.run(at_instant, particles, interval)
+            for start, stop in pieces(first, particles.store.count) if first or particles.beginnings.some else ():
+                rows = np.arange(start, stop)
+                if first:
+                    self.programs.run(at_instant, particles, interval, rows)
+                born = particles.beginnings.of(rows) - interval.start
+                late = born > instants[instant.time]
+                begin = padded(born[late], self.programs.real)
+                self.programs.run(at_birth, particles, interval, rows[late], by_place={"begin": (begin,)})
         if plan.closing is not None:
             self.lives.close(particles, interval, first)

@@ -2,87 +2,117 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from graphfx.cook.particles import Particles
-from graphfx.cook.paths import Lives, Window, lives_of, ways_of, with_bends
+from graphfx.cook.beginnings import numbers_of
+from graphfx.cook.moments import pieces
+from graphfx.cook.particles import Bends, Particles, flagged
+from graphfx.cook.paths import Lives, Window, all_seen, lives_of, ways_of, with_bends
 from graphfx.render.streaks import Streaks
 from graphfx.render.ways import Chords, Pieces, chords_of, pieces_of, within
 
 
 @dataclass
 class Shown:
-    """Streaks, and whose they are: the row of each streak, and the number of the picture's stream."""
+    """Streaks, and whose they are: some of the rows from `first` on; `owners` if not all, or those that the streaks pick.
+
+    `stream` is the number of the picture's stream.
+    """
 
     streaks: Streaks
+    owners: np.ndarray | None
     particles: Particles
-    rows: np.ndarray
+    first: int
     stream: int
+
+    @property
+    def rows(self) -> range | np.ndarray:
+        """Return the row of each streak that is drawn."""
+        if self.owners is not None:
+            return self.owners
+        chosen = self.streaks.rows
+        return range(self.first, self.first + self.streaks.given) if chosen is None else self.first + chosen.astype(np.int64)
 
 
 def streaks_of(
     particles: Particles, selected: np.ndarray | None, look: dict[str, Any], window: Window, moving: bool, stream: int = 0
 ) -> list[Shown]:
-    """Return the streaks of particles, or of the selected rows: straight ones, and those in pieces.
+    """Return the streaks of particles, or of those selected, of which each row tells: straight ones, and those in pieces.
 
-    `moving` says that the camera does not stand still, so that the streaks must tell their times.
+    `moving` says that the camera does not stand still, so that the streaks must tell their times. Some rows after others
+    are looked at, and what is known of all of them is not copied.
     """
-    lives = lives_of(particles, window)
-    drawing = _Drawing(particles, look, window, lives, moving)
-    rows = drawing.everyone if selected is None else selected
-    if lives is not None:
-        rows = rows[lives.share[rows] > 0]
-    with np.errstate(invalid="ignore", over="ignore"):
-        made = drawing.streaks(rows)
-    return [Shown(streaks, particles, whose, stream) for streaks, whose in made]
+    made: list[list[Made]] = []
+    starts: list[int] = []
+    seen, bends = all_seen(particles, window), particles.bends.by_row()
+    for start, stop in pieces(0, particles.store.count):
+        lives = None if seen else _partial(lives_of(particles, window, np.arange(start, stop)), window)
+        drawing = _Drawing(particles, look, window, moving, start, stop, bends.between(start, stop), lives)
+        starts.append(start)
+        with np.errstate(invalid="ignore", over="ignore"):
+            made.append(drawing.made(None if selected is None else selected[start:stop]))
+    return [
+        Shown(streaks, owners, particles, start, stream)
+        for step in zip(*made, strict=True) for start, some in zip(starts, step, strict=True) for streaks, owners in some
+    ]
+
+
+def _partial(lives: Lives, window: Window) -> Lives | None:
+    """Return when some are seen, or None if all are, all the time."""
+    whole = (lives.share == 1) & (lives.begin == window.opening) & (lives.end == window.closing)
+    return None if whole.all() else lives
+
+
+Made = list[tuple[Streaks, np.ndarray | None]]
 
 
 @dataclass
 class _Drawing:
-    """The streaks of one source's particles in the making."""
+    """The streaks of some rows of a source, start ... stop - 1, in the making."""
 
     particles: Particles
     look: dict[str, Any]
     window: Window
-    lives: Lives | None
     moving: bool
-    everyone: np.ndarray = field(init=False)
+    start: int
+    stop: int
+    bends: Bends
+    lives: Lives | None
 
-    def __post_init__(self) -> None:
-        """Number the rows."""
-        self.everyone = np.arange(self.particles.store.count)
-
-    def streaks(self, rows: np.ndarray) -> list[tuple[Streaks, np.ndarray]]:
-        """Return streaks with the rows that they are of."""
+    def made(self, selected: np.ndarray | None) -> list[Made]:
+        """Return streaks with the rows that they are of, in steps: what a step makes of any rows is before all of the next."""
+        everyone = np.arange(self.start, self.stop)
+        shown = np.ones(len(everyone), bool) if selected is None else selected.astype(bool)
+        if self.lives is not None:
+            shown &= self.lives.share > 0
         instants, window = self.particles.plan.exposure.instants, self.window
         now = window.closing >= window.time
         if not instants or (now and window.length <= 0):
-            return [(self._whole(rows, self._column("position", rows), None), rows)]
-        has_bends = np.isin(rows, self.particles.bends.rows) if len(self.particles.bends.rows) else np.zeros(len(rows), bool)
-        bent = rows[has_bends]
+            return [[self._as_stored(shown, None)]]
+        has_bends = flagged(self.bends.rows - self.start, len(everyone))
+        bent = everyone[shown & has_bends]
         if now and window.is_kept(instants):
             straight, _, in_pieces = self._ways(bent, True)
-            rest = rows if straight.all() else rows[~np.isin(rows, bent[~straight])]
-            tail = self._column(instants[-1].column, rest)
-            return [(self._whole(rest, self._column("position", rest), tail), rest), *in_pieces]
-        made: list[tuple[Streaks, np.ndarray]] = []
-        for group, with_hits in ((rows if not len(bent) else rows[~has_bends], False), (bent, True)):
+            shown[bent[~straight] - self.start] = False
+            return [[self._as_stored(shown, instants[-1].column)], in_pieces]
+        made: list[Made] = []
+        for group, with_hits in ((everyone[shown & ~has_bends], False), (bent, True)):
             straight, chords, in_pieces = self._ways(group, with_hits)
             whole = group if straight.all() else group[straight]
-            made += [(self._whole(whole, chords.head[:, straight], chords.tail[:, straight]), whole), *in_pieces]
+            made += [[(self._whole(whole, chords.head[:, straight], chords.tail[:, straight]), whole)], in_pieces]
         return made
 
-    def _ways(self, rows: np.ndarray, with_hits: bool) -> tuple[np.ndarray, Chords, list[tuple[Streaks, np.ndarray]]]:
+    def _ways(self, rows: np.ndarray, with_hits: bool) -> tuple[np.ndarray, Chords, Made]:
         """Return which of rows have straight ways while they are seen, their chords, and the others in pieces.
 
         One that cannot be drawn is left whole, to be dropped and counted once.
         """
         ways = ways_of(self.particles, rows, self.window)
         if with_hits and len(rows):
-            ways = with_bends(ways, self.particles.bends, rows)
+            ways = with_bends(ways, self.bends, rows)
         begin, end = self._begin(rows), self._end(rows)
         chords = chords_of(ways, begin, end, self._radius(rows), self.particles.store.threads)
         chords.straight[~chords.straight] = ~self._are_finite(rows[~chords.straight])
@@ -90,30 +120,29 @@ class _Drawing:
         if not bent.any():
             return chords.straight, chords, []
         ends = Chords(chords.head[:, bent], chords.tail[:, bent], chords.straight[bent])
-        pieces = pieces_of(within(ways.chosen(bent), begin[bent], end[bent], ends), self.look.get("streak") == "solid")
-        return chords.straight, chords, [self._in_pieces(rows[bent], pieces)]
+        bits = pieces_of(within(ways.chosen(bent), begin[bent], end[bent], ends), self.look.get("streak") == "solid")
+        return chords.straight, chords, [self._in_pieces(rows[bent], bits)]
 
     def _begin(self, rows: np.ndarray) -> np.ndarray:
-        return np.full(len(rows), self.window.opening) if self.lives is None else self.lives.begin[rows]
+        return np.full(len(rows), self.window.opening) if self.lives is None else self.lives.begin[rows - self.start]
 
     def _end(self, rows: np.ndarray) -> np.ndarray:
-        return np.full(len(rows), self.window.closing) if self.lives is None else self.lives.end[rows]
+        return np.full(len(rows), self.window.closing) if self.lives is None else self.lives.end[rows - self.start]
 
-    def _column(self, name: str, rows: np.ndarray) -> Any:
-        """Return an attribute of rows, or what it is for all."""
+    def _column(self, name: str, rows: slice | np.ndarray) -> Any:
+        """Return an attribute of rows, or what it is for all; where rows follow one another, as it is stored."""
         store = self.particles.store
         if name not in store.columns:
             value = self.particles.value(name)
-            return np.repeat(np.array(value, np.float32)[:, None], len(rows), axis=1) if name == "position" else value
-        arrays = store.column(name)
-        if rows is not self.everyone:
-            arrays = tuple(array[rows] for array in arrays)
+            count = rows.stop - rows.start if isinstance(rows, slice) else len(rows)
+            return np.broadcast_to(np.array(value, np.float32)[:, None], (3, count)) if name == "position" else value
+        arrays = tuple(array[rows] for array in store.column(name))
         return arrays if len(arrays) == 3 else arrays[0]
 
-    def _radius(self, rows: np.ndarray) -> Any:
+    def _radius(self, rows: slice | np.ndarray) -> Any:
         return self._column("radius", rows) if self.particles.has("radius") else 0.0
 
-    def _looks(self, rows: np.ndarray) -> dict[str, Any]:
+    def _looks(self, rows: slice | np.ndarray) -> dict[str, Any]:
         """Return how rows look at their heads and tails; what is the same at both is left out of the tails."""
         heads = {"radius": self._radius(rows), "color": self._column("color", rows), "opacity": self._column("opacity", rows)}
         tails = {name: self._column(f"tail.{name}", rows) for name in heads if f"tail.{name}" in self.particles.store.columns}
@@ -134,12 +163,25 @@ class _Drawing:
         moments = [((self.window.closing - time) / self.window.length).astype(np.float32) for time in (head, tail)]
         return {f"{end}_moment": moment for end, moment in zip(("head", "tail"), moments, strict=True)}
 
-    def _share(self, rows: np.ndarray) -> Any:
-        return 1.0 if self.lives is None else self.lives.share[rows].astype(np.float32)
+    def _lived(self, rows: slice | np.ndarray) -> dict[str, Any]:
+        """Return for how much of the shutter rows, counted from the first at hand, are seen, and when, if that matters."""
+        if self.lives is None:
+            return {}
+        moments = self._moments(self.lives.end[rows], self.lives.begin[rows])
+        return {"share": self.lives.share[rows].astype(np.float32), **moments}
+
+    def _as_stored(self, shown: np.ndarray, tail: str | None) -> tuple[Streaks, None]:
+        """Return streaks from a column of tails to where particles are, without a copy of what is stored."""
+        rows, own = slice(self.start, self.stop), slice(0, self.stop - self.start)
+        chosen = None if shown.all() else np.flatnonzero(shown).astype(np.int32)
+        head, end = self._column("position", rows), None if tail is None else self._column(tail, rows)
+        return Streaks(head=head, tail=end, **self._looks(rows), **self._lived(own), **self.look, rows=chosen), None
 
     def _whole(self, rows: np.ndarray, head: Any, tail: Any) -> Streaks:
-        moments = {} if self.lives is None else self._moments(self.lives.end[rows], self.lives.begin[rows])
-        return Streaks(head=head, tail=tail, **self._looks(rows), share=self._share(rows), **moments, **self.look)
+        return Streaks(head=head, tail=tail, **self._looks(rows), **self._lived(rows - self.start), **self.look)
+
+    def _share(self, rows: np.ndarray) -> Any:
+        return 1.0 if self.lives is None else self.lives.share[rows - self.start].astype(np.float32)
 
     def _in_pieces(self, rows: np.ndarray, pieces: Pieces) -> tuple[Streaks, np.ndarray]:
         """Return pieces as streaks; what differs between head and tail of a way is even in time along it."""
@@ -163,9 +205,11 @@ class _Drawing:
 
 def way_of(shown: Shown, window: Window) -> Streaks:
     """Return where particles that were drawn still went in a window, straight from its opening to its closing."""
-    rows, lives = shown.rows, lives_of(shown.particles, window)
-    drawing = _Drawing(shown.particles, {}, window, lives, False)
-    if not shown.particles.plan.exposure.instants:
-        return drawing._whole(rows, shown.streaks.head, None)
-    chords = chords_of(ways_of(shown.particles, rows, window), drawing._begin(rows), drawing._end(rows), 0.0)
+    particles, rows, start = shown.particles, numbers_of(shown.rows), shown.first
+    stop = start + shown.streaks.given
+    lives = None if all_seen(particles, window) else lives_of(particles, window, np.arange(start, stop))
+    drawing = _Drawing(particles, {}, window, False, start, stop, Bends(), lives)
+    if not particles.plan.exposure.instants:
+        return drawing._whole(rows, shown.streaks.drawn().head, None)
+    chords = chords_of(ways_of(particles, rows, window), drawing._begin(rows), drawing._end(rows), 0.0)
     return drawing._whole(rows, chords.head, chords.tail)

@@ -21,13 +21,21 @@ DEEP = ("I;16", "I;16L", "I;16B", "I;16N", "I", "F")
 """Pillow's modes of grey pictures with more than 8 bits."""
 
 
-def check_texture(file: str) -> None:
-    """Raise GraphError for a file that is no picture, LimitError for one that is too large; only its beginning is read."""
+def check_texture(file: str, whole: bool = False) -> None:
+    """Raise GraphError for a file that is no picture, LimitError for one that is too large.
+
+    Only its beginning is read, unless the `whole` is to be: then GraphError is raised for a damaged one too.
+    """
     with _opened(file) as picture:
         width, height = picture.size
-    if width * height > MOST_TEXELS:
-        raise LimitError(Problem(f"the picture {Path(file).name} has {width} x {height} pixels, {width * height:,}; the most of "
-                                 f"a texture is {MOST_TEXELS:,}; make it smaller"))
+        if width * height > MOST_TEXELS:
+            raise LimitError(Problem(f"the picture {Path(file).name} has {width} x {height} pixels, {width * height:,}; the most "
+                                     f"of a texture is {MOST_TEXELS:,}; make it smaller"))
+        if whole:
+            try:
+                picture.load()
+            except (OSError, ValueError, SyntaxError) as error:
+                raise _unreadable(file, error) from error
 
 
 def load_texture(file: str, color: bool) -> Texture:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -13,10 +14,12 @@ class Film:
 
     `fragments` counts pairs of a particle and a pixel that it touches, those told to lie behind opaque polygons left
     out; `dropped` the particles and triangles left out because a number of theirs was not finite. `channels`
-    (height, width) are what else was asked for, by its name in a file.
+    (height, width) are what else was asked for, by its name in a file. `faults` tell of what was dropped: the stream, the
+    attribute that was not finite, and of how many.
     """
 
     pixels: np.ndarray
     fragments: int = 0
     dropped: int = 0
     channels: dict[str, np.ndarray] = field(default_factory=dict)
+    faults: Sequence[tuple[str, str, int]] = ()

@@ -86,8 +86,9 @@ class _Rendering:
             return
         self.listener("survey")
         counts, self.film.dropped = self.scene.survey(beside)
-        for patch in patches_within(counts, whole, self.memory, uncut=self.sampler is not None):
-            left = max(self.memory - counts.memory_beside(patch), LEAST_SHARE * self.memory)
+        memory = max(self.memory - self.scene.surveyed_bytes, LEAST_MEMORY)
+        for patch in patches_within(counts, whole, memory, uncut=self.sampler is not None):
+            left = max(memory - counts.memory_beside(patch), LEAST_SHARE * memory)
             if counts.memory_of_segments(patch) > left and self.sampler is None:
                 self._tile_in_slabs(patch, left)
             else:

@@ -79,6 +79,11 @@ class Scene:
         """Return the memory that one segment takes while it is put in order."""
         return segment_bytes(self.extras)
 
+    @property
+    def surveyed_bytes(self) -> int:
+        """Return the memory of what is known of all particles once they were looked for."""
+        return sum(rows.nbytes for rows in self.reaches or ())
+
     def window(self, patch: Patch, slab: Slab = EVERYWHERE) -> Window:
         """Return the part of the picture that is a patch."""
         nothing = np.empty(0, np.uint16)

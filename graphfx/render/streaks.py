@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,11 @@ Column = np.ndarray | float
 Color = np.ndarray | tuple[float, float, float]
 Vectors = np.ndarray | tuple[np.ndarray, ...]
 """(3, n), or three arrays of n values."""
+COLUMNS = (
+    "head", "tail", "head_radius", "tail_radius", "head_color", "tail_color", "head_opacity", "tail_opacity", "share", "part",
+    "joined", "head_moment", "tail_moment",
+)
+"""The fields that hold a value of each particle, or one for all."""
 BLENDS = ("over", "add")
 MODES = ("exposed", "solid")
 
@@ -104,6 +110,19 @@ class Streaks:
                  self.head_opacity, tail_opacity, self.share, self.part, self.joined, self.head_moment, self.tail_moment]
         rows = slice(start, stop) if self.rows is None else self.rows[start:stop]
         return [self._column(np.asarray(column).reshape(-1), rows) for column in given]
+
+    def drawn(self) -> Streaks:
+        """Return those that are drawn, in their order, as all that there are."""
+        if self.rows is None:
+            return self
+        picked: dict[str, Any] = {"rows": None}
+        for name in COLUMNS:
+            value = getattr(self, name)
+            if isinstance(value, np.ndarray) and value.shape == (self.given,):
+                picked[name] = value[self.rows]
+            elif value is not None and not isinstance(value, float) and np.shape(value)[1:] == (self.given,):
+                picked[name] = np.stack([part[self.rows] for part in value])
+        return replace(self, **picked)
 
     def _column(self, column: np.ndarray, rows: slice | np.ndarray) -> np.ndarray:
         if column.size not in (1, self.given):

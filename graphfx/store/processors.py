@@ -22,6 +22,8 @@ from graphfx.store.threads import parallel
 
 BLOCK = 256
 """Rows that are computed together."""
+PIECE = 1 << 18
+"""Rows that are looked at together where each takes memory for a while."""
 GROWTH = 32
 """Spare room is 1/32 of the rows, plus up to a block: memory stays within 5 % of what the rows take."""
 
@@ -58,12 +60,10 @@ class Column:
 
 
 @compiled
-def _move_down(values: Any, rows: Any, first: int, count: int) -> None:
-    """Set values[first + i] = values[rows[i]] in place, then 0 up to `count`; `rows` ascend from `first`."""
-    end = np.uint64(first + len(rows))
+def _move_down(values: Any, rows: Any, first: int) -> None:
+    """Set values[first + i] = values[rows[i]] in place; `rows` ascend and are not before `first`."""
     for i in range(len(rows)):
         values[np.uint64(first + i)] = values[np.uint64(rows[i])]
-    values[end:count] = 0
 
 
 class ProcessorSet:
@@ -174,23 +174,29 @@ class ProcessorSet:
         """
         if self._dead is None:
             return 0
-        first = int(self._dead.argmax())
-        alive = np.ones(self.count - first, np.bool_)
-        np.logical_not(self._dead[first:], out=alive[: len(self._dead) - first])
-        rows = partition(alive) + first
-        growables = self._growables()
-
-        def close_up(piece: int) -> None:
-            array = growables[piece].array
-            _move_down(array.view(UNSIGNED[array.dtype.itemsize]), rows, first, self.count)
-
-        parallel(close_up, len(growables), self.threads if len(rows) >= GRAIN else 1)
-        removed = self.count - first - len(rows)
+        at, growables = int(self._dead.argmax()), self._growables()
+        for start in range(at, self.count, PIECE):
+            alive = np.ones(min(PIECE, self.count - start), np.bool_)
+            dead = self._dead[start : start + PIECE]
+            np.logical_not(dead, out=alive[: len(dead)])
+            rows = partition(alive) + start
+            self._move(growables, rows, at)
+            at += len(rows)
+        for growable in growables:
+            growable.array[at : self.count] = 0
+        removed = self.count - at
         self.count -= removed
         self._dead = None
         if 4 * self.count < 3 * self.capacity:
             self._resize(self.count)
         return removed
+
+    def _move(self, growables: list[GrowableArray], rows: np.ndarray, at: int) -> None:
+        def move(piece: int) -> None:
+            array = growables[piece].array
+            _move_down(array.view(UNSIGNED[array.dtype.itemsize]), rows, at)
+
+        parallel(move, len(growables), self.threads if len(rows) >= GRAIN else 1)
 
     def _growables(self) -> list[GrowableArray]:
         return [growable for arrays in self._arrays.values() for growable in arrays]

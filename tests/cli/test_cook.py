@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from hashlib import sha256
 from pathlib import Path
 
@@ -153,12 +154,12 @@ def test_node_that_branches(invoke, folder: Path) -> None:
                               "lower the rate, the count or the life, or allow more with --limit-particles"),
     ("--limit-pixels=500", "a picture of 32 x 18 has 576 pixels, and the limit is 500; "
                            "make it smaller, or allow more with --limit-pixels"),
-    ("--memory=1M", "graphfx itself takes about 200 MB of memory, and 1 MB are allowed; allow more than 200.1 MB with "
+    ("--memory=1M", "graphfx itself takes about 200 MB of memory, and 1 MB are allowed; allow 200.1 MB with "
                     "--memory\n"
-                    "  particles 10.6 kB, pictures 9.3 kB, graphfx itself 200 MB"),
-    ("--memory=200MB", "about 200.1 MB of memory are needed, and 200 MB are allowed; allow more with --memory, "
-                       "or lower the rate, the count or the life of the particles\n"
-                       "  particles 10.6 kB, pictures 9.3 kB, graphfx itself 200 MB"),
+                    "  particles 11.1 kB, pictures 9.3 kB, graphfx itself 200 MB"),
+    ("--memory=200MB", "fountain.json:1:175: nodes.spring: about 200.1 MB of memory are needed, and 200 MB are allowed; "
+                       "allow 200.1 MB with --memory, or lower the rate, the count or the life of the particles\n"
+                       "  particles 11.1 kB, pictures 9.3 kB, graphfx itself 200 MB"),
 ])
 def test_limits(invoke, folder: Path, option: str, message: str) -> None:
     """What would pass a limit is refused before work begins, with exit code 4 and how to allow it."""
@@ -168,3 +169,27 @@ def test_limits(invoke, folder: Path, option: str, message: str) -> None:
     assert (code, out) == (4, "")
     assert message in err
     assert files_in(folder) == ["fountain.json"]
+
+
+def test_least_memory_that_is_told_is_enough(invoke, folder: Path) -> None:
+    """What a message says is to be allowed is allowed."""
+    text = (folder / "fountain.json").read_text()
+    (folder / "fountain.json").write_text(text.replace('"rate": 240', '"rate": 9000000'))
+    code, _, err = invoke("cook", "fountain.json", "--dry-run", "--memory=210MB")
+    told = re.search(r"about (.*) of memory are needed, and 210 MB are allowed; allow (.*) with --memory", err)
+    assert code == 4 and told is not None and told[1] == told[2]
+    least = float(told[1].removesuffix(" MB"))
+    assert invoke("cook", "fountain.json", "--dry-run", f"--memory={least}MB").code == 0
+    assert invoke("cook", "fountain.json", "--dry-run", f"--memory={least - 0.2}MB").code == 4
+
+
+def test_what_is_not_drawn_is_named(invoke, folder: Path) -> None:
+    """Particles with a radius that is no number are told of once: whose they are, what is wrong, since when, what to do."""
+    text = (folder / "fountain.json").read_text()
+    (folder / "fountain.json").write_text(text.replace('"set": {', '"set": {"radius": {"expr": "sqrt(0.099 - time)"}, '))
+    code, _, err = invoke("cook", "fountain.json")
+    assert code == 0
+    assert err.splitlines()[-1] == (
+        "48 times a particle of spring: its radius is not finite, and it was not drawn, first in frame 4; look in what gives it "
+        "for a division by 0, a root or a logarithm of what is less than 0, or what grows without end"
+    )

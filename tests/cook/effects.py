@@ -65,7 +65,7 @@ def particles(document: dict[str, Any] | Effect, frame: int, emitter: str = "sky
 def streaks_at(simulation: Simulation, time: float, opening: float) -> list[Streaks]:
     """Return the streaks of the particles of `sky` while a shutter is open up to the time of the frame."""
     window = Window(opening, time, time, simulation.clock.start, simulation.clock.fps)
-    made = [shown.streaks for shown in streaks_of(simulation.particles["sky"], None, {}, window, False)]
+    made = [shown.streaks.drawn() for shown in streaks_of(simulation.particles["sky"], None, {}, window, False)]
     return [streaks for streaks in made if streaks.count] or made[:1]
 
 

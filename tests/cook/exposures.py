@@ -35,7 +35,7 @@ def pieces(found, frame, **how) -> list[Streaks]:
         pass
     window, image = window_of(found.plan.images[0], simulation, frame), found.plan.images[0]
     both = [simulation.particles["sky"]] + [past for past in [simulation.particles["sky"].past] if past is not None]
-    made = [shown.streaks for each in both for shown in streaks_of(each, None, image.streams[0].looks, window, False)]
+    made = [shown.streaks.drawn() for each in both for shown in streaks_of(each, None, image.streams[0].looks, window, False)]
     return [streaks for streaks in made if streaks.count]
 
 

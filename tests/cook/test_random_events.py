@@ -63,11 +63,11 @@ def test_pieces_of_every_way_take_all_of_its_time(seed: int) -> None:
             for drawn in image.streams:
                 particles = simulation.particles[drawn.path]
                 for each in (particles, particles.past) if particles.past is not None else (particles,):
-                    lives = lives_of(each, window)
-                    share = np.ones(each.store.count) if lives is None else np.maximum(lives.share, 0.0)
+                    share = np.maximum(lives_of(each, window, np.arange(each.store.count)).share, 0.0)
                     taken = np.zeros(each.store.count)
                     for shown in streaks_of(each, None, drawn.looks, window, True):
-                        np.add.at(taken, shown.rows, np.broadcast_to(shown.streaks.share * shown.streaks.part, len(shown.rows)))
+                        streaks = shown.streaks.drawn()
+                        np.add.at(taken, shown.rows, np.broadcast_to(streaks.share * streaks.part, len(shown.rows)))
                     np.testing.assert_allclose(taken, share, rtol=0, atol=1e-5)
     except LimitError:
         pytest.skip("this graph passes a limit of its own")

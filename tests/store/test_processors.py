@@ -111,10 +111,12 @@ DEAD = {
 }
 
 
+@pytest.mark.parametrize("piece", [1 << 18, 64, 7])
 @pytest.mark.parametrize("threads", THREADS)
 @pytest.mark.parametrize("dead", DEAD.values(), ids=DEAD)
-def test_compact_keeps_survivors_in_order(dead, threads):
-    """The survivors stay in order, in every column, and the rows behind them are 0."""
+def test_compact_keeps_survivors_in_order(dead, threads, piece, monkeypatch):
+    """The survivors stay in order, in every column, however many rows are looked at together; the rows behind them are 0."""
+    monkeypatch.setattr(processors, "PIECE", piece)
     particles = filled(1000, threads)
     mask = np.array([dead(row) for row in range(1000)])
     particles.kill(mask)

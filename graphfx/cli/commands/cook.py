@@ -99,7 +99,8 @@ class Cook:
     limits: CookLimits
     as_json: bool
     done: list[int] = field(default_factory=list)
-    dropped: int = 0
+    faults: dict[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
+    """Of each stream and attribute that was not finite the first frame of that, and how often it was seen."""
     restless: int = 0
     failed: int = 0
     begun: bool = False
@@ -126,7 +127,9 @@ class Cook:
 
             def report(frame: FrameReport) -> None:
                 self.done.append(frame.frame)
-                self.dropped += frame.dropped
+                for stream, attribute, count in frame.faults:
+                    first, before = self.faults.get((stream, attribute), (frame.frame, 0))
+                    self.faults[stream, attribute] = first, before + count
                 self.restless, self.failed = frame.restless, frame.failed
                 progress.frame(frame)
                 if self.as_json:
@@ -151,8 +154,11 @@ class Cook:
 
     def _warn(self) -> None:
         """Tell of particles that the pictures do not show as they should."""
-        if self.dropped:
-            click.echo(f"{self.dropped:,} times a particle was not drawn: its position, radius or colour is not finite", err=True)
+        for (stream, attribute), (first, count) in self.faults.items():
+            whose = f"a particle of {stream}: its {attribute}" if stream else f"a triangle: one of its {attribute}"
+            click.echo(f"{count:,} times {whose} is not finite, and it was not drawn, first in frame {first}; "
+                       "look in what gives it for a division by 0, a root or a logarithm of what is less than 0, or what grows "
+                       "without end", err=True)
         if self.restless:
             click.echo(f"{self.restless:,} times a particle had too many contacts in one step, and was laid to rest", err=True)
         if self.failed:
