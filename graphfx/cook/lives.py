@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.cook.beginnings import NO_ROWS, NO_TIMES, Endings, Starts
+from graphfx.cook.beginnings import NO_ROWS, NO_TIMES, Starts
 from graphfx.cook.bends import bends_of, new_knots
 from graphfx.cook.moments import pieces
 from graphfx.cook.nursery import Nursery
@@ -105,7 +105,7 @@ class Lives:
         kept = ends.fate == HELD
         held_on, again_from = (rows[kept], when[kept], ends.begun[kept]), NOBODY
         if gone.any():
-            renewed = self._die(particles, interval, rows[gone], when[gone])
+            renewed = self.die(particles, interval, rows[gone], when[gone])
             again = reborn | natural
             again[gone] &= reborn[gone] | renewed
             self._renew(particles, interval, rows[again], when[again])
@@ -191,7 +191,7 @@ class Lives:
                 occasion = Occasion(rows[heard], when[heard], numbers, _kept(ends.hit, heard))
                 self.spawns.make(spawn, particles, interval, occasion)
 
-    def _die(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray) -> np.ndarray:
+    def die(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray) -> np.ndarray:
         """Do what is done at deaths; return which of the rows begin another life if they died of age."""
         made, real = particles.plan.at_death, self.programs.real
         renewed = np.zeros(len(rows), bool)
@@ -282,37 +282,6 @@ class Lives:
         if particles.plan.mortal:
             alive &= particles.death(rows) >= interval.start + end
         return alive
-
-    def close(self, particles: Particles, interval: Interval, first: int = 0) -> None:
-        """Do what is set as a frame ends, on rows from `first` on, and end the lives of those who are killed then."""
-        made = particles.plan.closing
-        assert made is not None
-        kills, placed = "fate" in made.program.stores, particles.plan.closing_at
-        if first == 0 and not kills and (placed is None or not len(particles.dying)):
-            self.programs.run(made, particles, interval)
-            return
-        before = Endings([particles.endings.all()])
-        for start, stop in pieces(first, particles.store.count):
-            rows = np.arange(start, stop)
-            self._close_some(made, particles, interval, rows, before.of(rows))
-
-    def _close_some(
-        self, made: FrameProgram, particles: Particles, interval: Interval, rows: np.ndarray, ended: np.ndarray
-    ) -> None:
-        """Close the frame for some rows, of which some ended at a time [s]; the others did at infinity."""
-        kills, placed = "fate" in made.program.stores, particles.plan.closing_at
-        dying = np.isfinite(ended)
-        listed = rows if placed is None else rows[~dying]
-        fate = padded(np.zeros(len(listed)), self.programs.real)
-        self.programs.run(made, particles, interval, listed, by_place={"fate": (fate,)} if kills else None)
-        if placed is not None and dying.any():
-            begin = padded(ended[dying] - interval.start, self.programs.real)
-            self.programs.run(placed, particles, interval, rows[dying], by_place={"begin": (begin,)})
-        if kills:
-            killed = listed[(fate[: len(listed)] > 0) & ~dying[listed - rows[0]]]
-            when = np.full(len(killed), interval.length)
-            self._die(particles, interval, killed, when)
-            particles.endings.note(killed, interval.start + when)
 
 
 def _kept(hit: dict[str, tuple[np.ndarray, ...]], chosen: np.ndarray) -> dict[str, tuple[np.ndarray, ...]]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from graphfx.cook.beginnings import NO_ROWS, Start, Starts
 from graphfx.cook.births import Births
+from graphfx.cook.closing import close
 from graphfx.cook.executor import Executor
 from graphfx.cook.lives import Lives
 from graphfx.cook.meshes import Meshes
@@ -172,4 +173,4 @@ class Simulation:
                 begin = padded(born[late], self.programs.real)
                 self.programs.run(at_birth, particles, interval, rows[late], by_place={"begin": (begin,)})
         if plan.closing is not None:
-            self.lives.close(particles, interval, first)
+            close(self.lives, particles, interval, first)
