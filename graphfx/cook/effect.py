@@ -21,6 +21,7 @@ from graphfx.cook import warm
 from graphfx.cook.cameras import check_views
 from graphfx.cook.channels import draw_all
 from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
+from graphfx.cook.far import FarAway
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.memory import is_scarce, return_what_is_freed
@@ -28,7 +29,7 @@ from graphfx.cook.movies import movie_file, open_movies
 from graphfx.cook.pilot import planned
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer
-from graphfx.errors import OutputError, UsageError
+from graphfx.errors import OutputError, Problem, UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
@@ -43,7 +44,7 @@ class FrameReport:
 
     `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
     within one step that they were brought to rest, `failed` ones found no step short enough to go on (both counted since
-    the start). `faults` tell the stream and the attribute of those that were dropped.
+    the start). `faults` tell the stream and the attribute of those that were dropped; `warnings` are told once in a cook.
     """
 
     frame: int
@@ -54,6 +55,7 @@ class FrameReport:
     failed: int
     files: tuple[Path, ...]
     faults: tuple[tuple[str, str, int], ...] = ()
+    warnings: tuple[Problem, ...] = ()
 
 
 class Effect:
@@ -108,7 +110,7 @@ class Effect:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
-        writer = Writer(self.plan, threads, limits.memory)
+        writer, far = Writer(self.plan, threads, limits.memory), FarAway()
         pixels = sum(math.prod(image.size) for image in self.plan.images)
         with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
@@ -134,13 +136,16 @@ class Effect:
                 jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path], frame)
                         for image in self.plan.stills]
                 jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
-                waiting = self._report(frame, simulation, list(films.values()), list(stills.values())), jobs
+                warnings = tuple(far.warnings(simulation, frame))
+                waiting = self._report(frame, simulation, list(films.values()), list(stills.values()), warnings), jobs
                 del films  # each is let go of as soon as it is written
             if waiting is not None:
                 yield _finished(*waiting)
 
     @staticmethod
-    def _report(frame: int, simulation: Simulation, films: list[Film], files: list[Path]) -> FrameReport:
+    def _report(
+        frame: int, simulation: Simulation, films: list[Film], files: list[Path], warnings: tuple[Problem, ...]
+    ) -> FrameReport:
         particles = simulation.particles.values()
         return FrameReport(
             frame,
@@ -151,6 +156,7 @@ class Effect:
             sum(each.failed for each in particles),
             tuple(files),
             tuple(fault for film in films for fault in film.faults),
+            warnings,
         )
 
     def _checked(self, frames: list[int]) -> list[int]:

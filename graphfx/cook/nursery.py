@@ -16,6 +16,7 @@ from graphfx.lanes.compile import compiled
 from graphfx.math.random import key_of
 from graphfx.motion.clock import Interval
 from graphfx.plan.frame_program import FrameProgram
+from graphfx.plan.rounding import REMAINDER
 from graphfx.store.threads import parallel
 
 SEED_ID = 1 << 62
@@ -69,9 +70,9 @@ class Nursery:
     def renew(self, particles: Particles, rows: np.ndarray, times: np.ndarray, interval: Interval) -> None:
         """Begin another life of particles."""
         store = particles.store
-        for name in ("resting", *(f"made {spawn.path}" for spawn in particles.plan.spawns)):
-            if name in store.columns:
-                store.arrays(name)[0][rows] = 0
+        for name in ("resting", REMAINDER, *(f"made {spawn.path}" for spawn in particles.plan.spawns)):
+            for part in store.arrays(name) if name in store.columns else ():
+                part[rows] = 0
         lives = particles.gathered("lives", rows, self.programs.real)[0]
         given: dict[str, tuple[np.ndarray, ...]] = {"number lives": (lives + self.programs.real(1),)}
         given |= {

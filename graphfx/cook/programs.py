@@ -14,6 +14,7 @@ from graphfx.cook.particles import Particles
 from graphfx.motion.clock import Interval, cell_time
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import Plan
+from graphfx.plan.matrix_motion import find_matrices
 from graphfx.plan.values import find_step_values
 
 ENGINE_COLUMNS = {"age": "birth"}
@@ -102,6 +103,8 @@ class Programs:
                 values[id(uniform)] = cell_time(kind, interval.start, k * length, length, number, made.cells)
             else:
                 values[id(uniform)] = at(name)
+        if made.matrices:
+            values |= find_matrices(made, values, lambda k: interval.start + at(("middle", k)), interval.frame, length)
         values |= self.meshes.uniforms(made, interval.start, interval.length, substeps, interval.frame)
         for time, steps in made.steps:
             values |= find_step_values(steps, interval.start + at(time), interval.frame, self.plan.precision)

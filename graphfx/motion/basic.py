@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.math import Vec3, dot, length, maximum, minimum, where
+from graphfx.math import Vec3, absolute, dot, length, maximum, minimum, where
 from graphfx.program import Bundle, Function
 
 MOTION = Bundle("motion")
@@ -136,6 +136,25 @@ def kept_last_knot(then: Any, there: Any, count: Any, number: Any, time: Any, pl
 def advance_half(value: Any, rate: Any, dt: Any) -> Any:
     """value + rate dt / 2."""
     return value + rate * (dt * 0.5)
+
+
+@MOTION.function("vec3 vec3", "vec3 vec3")
+def joined(value: Any, remainder: Any) -> Any:
+    """(s, r) with s = value + remainder as it is rounded, and r what that took: s + r is the sum. [Knuth 1969, 4.2.2 B]"""
+    total = value + remainder
+    added = total - value
+    return total, (value - (total - added)) + (remainder - added)
+
+
+def nought_below(least: Any, number: Any) -> Any:
+    """The number, and 0 if it is less than `least` in size."""
+    return where(absolute(number) < least, 0.0, number)
+
+
+@MOTION.function("vec3 float", "vec3")
+def settled(value: Any, least: Any) -> Any:
+    """The value, its coordinates less than `least` in size as 0."""
+    return Vec3(nought_below(least, value.x), nought_below(least, value.y), nought_below(least, value.z))
 
 
 # The paper's scheme, `sims`.

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.math import exp, floor, on_unit_sphere, power, where
+from graphfx.math import Vec3, exp, floor, on_unit_sphere, power, where
+from graphfx.motion.basic import nought_below
 from graphfx.program import Bundle
 
 EVENTS = Bundle("events")
@@ -26,16 +27,17 @@ def one_more(count: Any) -> Any:
     return count + 1.0
 
 
-@EVENTS.function("float float float float", "float")
-def faded_number(value: Any, target: Any, rate: Any, dt: Any) -> Any:
-    """target + (value - target) exp(-rate dt)."""
-    return target + (value - target) * exp(rate * dt * -1.0)
+@EVENTS.function("float float float float float", "float")
+def faded_number(value: Any, target: Any, rate: Any, dt: Any, least: Any) -> Any:
+    """target + (value - target) exp(-rate dt), and 0 if that is less than `least`."""
+    return nought_below(least, target + (value - target) * exp(rate * dt * -1.0))
 
 
-@EVENTS.function("vec3 vec3 float float", "vec3")
-def faded_vector(value: Any, target: Any, rate: Any, dt: Any) -> Any:
-    """target + (value - target) exp(-rate dt)."""
-    return target + (value - target) * exp(rate * dt * -1.0)
+@EVENTS.function("vec3 vec3 float float float", "vec3")
+def faded_vector(value: Any, target: Any, rate: Any, dt: Any, least: Any) -> Any:
+    """target + (value - target) exp(-rate dt), coordinates less than `least` in size as 0."""
+    faded = target + (value - target) * exp(rate * dt * -1.0)
+    return Vec3(nought_below(least, faded.x), nought_below(least, faded.y), nought_below(least, faded.z))
 
 
 @EVENTS.function("vec3 draw float", "vec3")

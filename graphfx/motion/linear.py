@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.math import cosinc, cross, dot, exp, length, phi1, phi2, sin3, sinc, sincos, where
+from graphfx.math import by_precision, cosinc, cross, dot, exp, length, minimum, phi1, phi2, sin3, sinc, sincos, where
 from graphfx.program import function
 
 
@@ -20,10 +20,24 @@ def fall(position: Any, velocity: Any, gravity: Any, dt: Any) -> Any:
     return position + (velocity + gravity * (dt * 0.5)) * dt, velocity + gravity * dt
 
 
+def _growth_single(x: Any) -> Any:
+    """min(x, 68)."""
+    return minimum(x, 68.0)
+
+
+def _growth_double(x: Any) -> Any:
+    """min(x, 680)."""
+    return minimum(x, 680.0)
+
+
+growth = by_precision(_growth_single, _growth_double)
+"""An exponent, and in one step no more than e^68 (float64: e^680): what stands still then does so however long a step is."""
+
+
 @function("vec3 vec3 vec3 float float", "vec3 vec3")
 def damped_fall(position: Any, velocity: Any, gravity: Any, damping: Any, dt: Any) -> Any:
     """With x = -d dt: P + V dt phi1(x) + g dt^2 phi2(x), V e^x + g dt phi1(x)."""
-    x = -(damping * dt)
+    x = growth(-(damping * dt))
     first = phi1(x) * dt
     return position + velocity * first + gravity * (phi2(x) * dt * dt), velocity * exp(x) + gravity * first
 
@@ -93,7 +107,7 @@ def spiral_fall(position: Any, velocity: Any, gravity: Any, damping: Any, rate: 
     """
     speed = length(rate)
     axis = rate * where(speed > 0.0, 1.0 / speed, 0.0)
-    x, y = -(damping * dt), speed * dt
+    x, y = growth(-(damping * dt)), speed * dt
     s, c = sincos(y)
     grown = exp(x)
     near = x * x + y * y < 1.0

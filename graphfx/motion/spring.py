@@ -36,7 +36,7 @@ from graphfx.math import (
     sqrt,
     where,
 )
-from graphfx.motion.linear import SERIES_TERMS, complex_phi, complex_series
+from graphfx.motion.linear import SERIES_TERMS, complex_phi, complex_series, growth
 from graphfx.program import function
 
 SCALES = tuple(1.0 / math.factorial(n + 2) for n in range(SERIES_TERMS + 2))
@@ -52,7 +52,7 @@ def constant_carried(constant: Any, damping: Any, rate: Any, applied: Any) -> An
 @function("float float float", "float float float float")
 def spring_factors(damping: Any, stiffness: Any, dt: Any) -> Any:
     """(S, K, Q, R) of a real oscillator: what `damped_spring` takes. Roots are real, or a pair -d/2 +- i omega."""
-    x_plus_y, xy = -(damping * dt), stiffness * dt * dt
+    x_plus_y, xy = growth(-(damping * dt)), stiffness * dt * dt
     middle = x_plus_y * 0.5
     square = middle * middle - xy
     apart = square >= 0.0
@@ -129,7 +129,7 @@ def _complex_pushed_near(p_r: Any, p_i: Any, xy: Any) -> Any:
 
 def _roots(damping: Any, speed: Any, stiffness: Any, dt: Any) -> Any:
     """The roots x and y, |x| >= |y|, of r^2 + (d - i s) h r + k h^2, and x + y and x y: (x_r, x_i, y_r, y_i, p_r, p_i, x y)."""
-    p_r, p_i, xy = -(damping * dt), speed * dt, stiffness * dt * dt
+    p_r, p_i, xy = growth(-(damping * dt)), speed * dt, stiffness * dt * dt
     m_r, m_i = p_r * 0.5, p_i * 0.5
     root_r, root_i = _complex_root((m_r - m_i) * (m_r + m_i) - xy, m_r * m_i * 2.0)
     sign = where(m_r * root_r + m_i * root_i < 0.0, -1.0, m_r * 0.0 + 1.0)

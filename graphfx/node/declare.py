@@ -24,7 +24,7 @@ RESPONSE = (
     Parameter("resilience", "float", 0.5, "", 0.0, 1.0, (), "Share of the speed across the surface that a bounce gives back."),
     Parameter("friction", "float", 0.0, "", 0.0, 1.0, (), "Share of the speed along the surface that a bounce takes."),
     Parameter("friction_threshold", "float", 0.0, "m/s", 0.0, None, (), "Friction does not act on a particle slower than this."),
-    Parameter("rest_speed", "float", 0.01, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest."),
+    Parameter("rest_speed", "float", 0.0, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest at once."),
     Parameter("event_speed", "float", 0.1, "m/s", 0.0, None, (), "A slower hit is no event, unless it ends in rest."),
     Parameter("response", "string", "bounce", "", None, None, ("bounce", "stick", "slide", "die"), "What it does at a hit."),
 )
@@ -122,7 +122,8 @@ class operator:
 
     `neutral=` is a condition on the parameters under which the operator does nothing and is left out;
     `exact_if=` one under which it has an exact form that the engine knows: for a flow with `linear=`, the
-    function of a rate of change (its arguments are among the flow's), that it is then a linear operator; for an
+    function of a rate of change (its arguments are among the flow's), that it is then a linear operator (one with
+    `linear=` and no `exact_if` is that too where all that acts is linear, and so exact together with it); for an
     acceleration with `flow=`, a function (its arguments are among the operator's, and position, velocity and dt), that
     gives position and velocity after dt where nothing else acts;
     `branches=True` runs it lane by lane, thirteen times slower, so that its body may use `if`.

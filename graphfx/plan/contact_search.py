@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from graphfx.motion import barrier, basic, contact, crossing
+from graphfx.motion import barrier, basic, contact, crossing, settling
 from graphfx.plan.barriers import Barriers, Plane
 from graphfx.plan.crossing import Crossings, MomentOf, Search, Way, way_of
 from graphfx.plan.moment import Moment, State
@@ -60,6 +60,8 @@ class ContactSearch:
     """The search for the contacts of one step that starts at `first`."""
 
     tolerance: Column
+    mean: Column
+    """The mean acceleration over the whole step."""
 
     def __init__(
         self,
@@ -77,6 +79,8 @@ class ContactSearch:
 
     def candidates(self, surfaces: list[Mover], whole: Moment, starts: list[tuple[Column, Column] | None]) -> list[Candidate]:
         """Write who meets each surface in the whole step."""
+        velocities = self.first["velocity"], self.state.read("velocity")
+        self.mean = whole.builder.call(settling.mean, *velocities, self.step, name="mean acceleration")
         way = way_of(self.motion, whole.builder, self.first, self.state, self.step)
         return [self.candidate(surface, whole, start, way) for surface, start in zip(surfaces, starts, strict=True)]
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from graphfx.motion import barrier, basic, contact, events
+from graphfx.motion import barrier, basic, contact, events, settling
 from graphfx.node import INFINITY
 from graphfx.plan.barriers import Barriers, is_barrier
 from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_from, remember, return_to
@@ -16,6 +16,8 @@ from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion, Mover
 from graphfx.plan.pacing import Pacing
 from graphfx.plan.scheme import kept_state
+from graphfx.plan.settling import Settling
+from graphfx.plan.sliding import Sliding
 from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -39,6 +41,7 @@ class Contacts:
         self.surfaces = motion.of("surface")
         self.barriers = Barriers(motion)
         self.crossings = Crossings(motion)
+        self.precision = precision
         self.resolution = Uniform("8 eps", "float", RESOLUTION[precision])
 
     def _response(self, surface: Mover, moment: Moment, names: tuple[str, ...]) -> list[Operand]:
@@ -124,6 +127,8 @@ class Contacts:
         search = ContactSearch(self.motion, self.barriers, moment_of, state, first, step, self.resolution)
         search.tolerance = builder.call(contact.contact_tolerance, first["position"], self.resolution, name="tolerance")
         candidates = search.candidates(self.surfaces, whole, starts)
+        longest = self.moments.made.time(builder, "length")
+        settled = Settling(search, self._response, self.hits.concern, longest, self.precision).write(builder, candidates, whole)
         best = builder.call(basic.copy_number, step, name="contact time")
         for candidate in candidates:
             search.find(candidate, builder.under(candidate.hit), best)
@@ -131,20 +136,37 @@ class Contacts:
         inner = builder.under(met)
         return_to(inner, state, first)
         self.motion.step(moment_of(inner, best), state)
+        if settled is not None:
+            met = settled.take(builder, state, best, step, met)
         if self.barriers.surfaces:
             search.shorten(inner, candidates, best)
         fade(builder, best)
-        slides = builder.call(basic.but_not, met, met, name="slides")
-        for candidate in candidates:
-            chosen = self._chosen(builder, candidate, best)
-            slid = self._answer(candidate, builder.under(chosen), moment_of, state, best, resting, search.tolerance)
-            slides = builder.call(basic.either, slides, slid)
-        stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, step), name="stuck")
-        self._slide(builder.under(stuck), moment_of, state, step, best, search.tolerance, fade)
+        self._answers(builder, search, candidates, best, resting, fade)
         inner.call(basic.copy_number, best, into=step)
         if pacing is not None:
             pacing.meet(builder, met)
         return met
+
+    def _answers(
+        self,
+        builder: Builder,
+        search: ContactSearch,
+        candidates: list[Candidate],
+        best: Column,
+        resting: Column | None,
+        fade: Callable[[Builder, Column], None],
+    ) -> None:
+        """Write what the surfaces do to those who meet them at the time `best`; who cannot leave goes along them."""
+        pressed = {}
+        for candidate in candidates:
+            chosen = builder.under(self._chosen(builder, candidate, best))
+            pressed[candidate.surface.node.path] = self._answer(
+                candidate, chosen, search.moment_of, search.state, best, resting, search.tolerance, search.mean
+            )
+        slides = _any_of(builder, list(pressed.values()))
+        stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, search.step), name="stuck")
+        sliding = Sliding(self.motion, self.barriers, search.moment_of, search.state, search.tolerance, self.resolution)
+        sliding.write(builder.under(stuck), search.step, best, pressed, fade)
 
     def _starts(self, whole: Moment, state: State) -> list[tuple[Column, Column] | None]:
         """Write the distance of each surface that has one as a step starts, and its normal."""
@@ -179,31 +201,6 @@ class Contacts:
             chosen = builder.call(basic.both, chosen, builder.call(events.is_going_on, self.fate.fate), name="chosen")
         return chosen
 
-    def _slide(
-        self,
-        builder: Builder,
-        moment_of: MomentOf,
-        state: State,
-        step: Column,
-        used: Column,
-        tolerance: Column,
-        fade: Callable[[Builder, Column], None],
-    ) -> None:
-        """Write a whole step along the surfaces, for particles that are pressed on one and cannot leave."""
-        fade(builder, builder.call(basic.difference, step, used, name="left"))
-        builder.call(basic.copy_number, step, into=used)
-        moment = moment_of(builder, step)
-        begin = builder.call(basic.copy_vector, state.position, name="slide from") if self.barriers.surfaces else None
-        self.motion.step(moment, state)
-        for surface in self.surfaces:
-            if is_barrier(surface):
-                continue
-            distance, normal = distance_of(self.motion, surface, moment, state)
-            into = (state.position, state.velocity)
-            builder.call(contact.slide, *into, distance, normal, into=into)  # type: ignore[arg-type]
-        if begin is not None:
-            self.barriers.slide(moment, state, begin, tolerance)
-
     def start(self, builder: Builder, state: State) -> dict[str, Column]:
         """Keep where a step starts, if a surface asks for it; its velocity too where contacts are located."""
         crossed = [surface for surface in self.surfaces if not is_barrier(surface) and self.crossings.concern(surface)]
@@ -221,6 +218,7 @@ class Contacts:
         time: Column,
         resting: Column | None,
         tolerance: Column,
+        mean: Column,
     ) -> Column:
         """Write what a surface does to the particles that meet it; return which of them slide."""
         moment, surface = moment_of(builder, time), candidate.surface
@@ -228,6 +226,8 @@ class Contacts:
         if candidate.plane is not None:
             distance = builder.call(barrier.from_above, distance, tolerance, name="distance")
         response = self._response(surface, moment, ("resilience", "friction", "friction_threshold", "rest_speed"))
+        given = (state.read("velocity"), normal, mean, response[3], self.resolution, tolerance)
+        response[3] = builder.call(settling.least_speed, *given, name="least speed")
         stopped, sliding = Column("stopped", "bool"), Column("sliding", "bool")
         into: Any = (state.position, state.velocity, stopped, sliding)
         concerned = self.hits.concern(surface)

@@ -21,6 +21,7 @@ class FrameProgram:
     steps: list[tuple[Any, StepValues]] = field(default_factory=list)
     times: dict[Any, Uniform] = field(default_factory=dict)
     cells: int = 1
+    matrices: dict[Any, Any] = field(default_factory=dict)
     meshes: dict[tuple[str, int], Uniform] = field(default_factory=dict)
     """Meshes by path and substep, each as it stands in the middle of that; of the whole frame for substep -1."""
 

@@ -105,6 +105,11 @@ class Holder:
         nodes = [node for node in self.of_role(*SETTING_ROLES) if moment_of(node) in ("step", "hit")]
         return frozenset(name for node in nodes for name in node.gives) | {"hits"}
 
+    @property
+    def places_again(self) -> bool:
+        """Return whether anything but motion puts particles somewhere in the course of a life."""
+        return any("position" in node.gives for node in self.of_role(*SETTING_ROLES))
+
     def parents_of(self, maker: FlatNode) -> list[Holder]:
         """Return the sources of a maker's parents; an `emit` has none."""
         return self.parents if maker is self.maker else self.homes[maker.path]

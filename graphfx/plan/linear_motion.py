@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphfx.motion import basic, linear, spring
+from graphfx.plan.matrix_motion import MatrixMotion
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import Mover
+from graphfx.plan.rounding import way_of
 from graphfx.plan.values import folded_call
 from graphfx.plan.white_noise import WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
@@ -31,6 +33,7 @@ class Coefficients:
     turning: Operand | None = None
     stiffness: Operand | None = None
     applied: Operand | None = None
+    matrix: MatrixMotion | None = None
 
 
 @dataclass
@@ -48,6 +51,17 @@ class LinearMotion:
     noise: WhiteNoise
     _cached: dict[tuple[int, int], Terms] = field(default_factory=dict)
 
+    @property
+    def matrix(self) -> MatrixMotion | None:
+        """Return the motion by the exponential of a matrix, where the operators have that form."""
+        linear = [mover for mover in self.movers if mover.role == "linear"]
+        return MatrixMotion(linear) if any(mover.matrix for mover in linear) else None
+
+    @property
+    def springs(self) -> bool:
+        """Return whether what it does depends on the place."""
+        return self.matrix is not None or any(mover.form is not None and mover.form.stiffness for mover in self.movers)
+
     def prepare(self, moment: Moment, state: State) -> None:
         """Write, once for all steps, the terms that stay the same."""
         for mover in self.movers:
@@ -60,7 +74,7 @@ class LinearMotion:
 
     def coefficients(self, moment: Moment, state: State, cell: int = 0) -> Coefficients:
         """Write the sum of all terms; noise is that of the `cell`-th cell that the step meets."""
-        total = Coefficients()
+        total = Coefficients(matrix=self.matrix)
         for mover in self.movers:
             for name, term in self.terms(mover, moment, state, cell).items():
                 before = getattr(total, name)
@@ -99,6 +113,9 @@ class LinearMotion:
             given = self.arguments(mover, moment, state, {"position": position, "velocity": velocity})
             return folded_call(builder, moment.writer.precision, mover.function, *given, name=mover.node.node_type.name)
 
+        if mover.matrix is not None:
+            name = "constant" if mover.writes_velocity else "applied"
+            return {name: evaluate(ZERO, ZERO)} if mover.matrix.constant else {}
         if mover.form is None:
             return {"applied": evaluate(ZERO, ZERO)}
         form, found = mover.form, {}
@@ -120,16 +137,20 @@ class LinearMotion:
         return found
 
 
-def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:
-    """Write the exact flow of a linear motion over dt."""
+def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand, keeps: bool = False) -> None:
+    """Write the exact flow of a linear motion over dt; with `keeps` what rounding takes from the place is kept."""
     builder = moment.builder
     builder.note = "linear motion"
     position, velocity = state.position, state.velocity
     assert isinstance(position, Column)
+    if total.matrix is not None:
+        total.matrix.write(moment, state, total.applied, total.constant, dt)
+        return
     if total.stiffness is not None:
         _write_spring(moment, state, total, dt)
         return
-    both: Any = (position, velocity)
+    way = way_of(state, keeps)
+    both: Any = (way, velocity)
     constant = total.constant or ZERO
     if total.turning is not None and total.constant is None and total.damping is None:
         factors = builder.call(linear.spin_factors, total.turning, dt, name="factor")
@@ -141,9 +162,11 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand) -
     elif total.constant is not None:
         builder.call(linear.fall, *both, constant, dt, into=both)
     elif velocity is not None:
-        builder.call(basic.advance, position, velocity, dt, into=position)
+        builder.call(basic.advance, way, velocity, dt, into=way)
     if total.applied is not None:
-        builder.call(basic.advance, position, total.applied, dt, into=position)
+        builder.call(basic.advance, way, total.applied, dt, into=way)
+    if keeps:
+        builder.call(basic.joined, position, way, into=(position, way))
 
 
 def _write_spring(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:

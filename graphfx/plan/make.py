@@ -15,11 +15,13 @@ from graphfx.plan.ends import EndWriter
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.holder import Holder, draws_in, find_holders, names_in
 from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes, reads_at_birth, reads_of_spawn
+from graphfx.plan.matrix_form import gathered
 from graphfx.plan.method import Choice, cells_met, choose_method
 from graphfx.plan.moment import Constants
 from graphfx.plan.motion import Motion, mover_of
 from graphfx.plan.pacing import SHARE
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
+from graphfx.plan.rounding import REMAINDER
 from graphfx.plan.schedule import Schedule, make_schedule, never_acts
 from graphfx.plan.shutter import Exposure, exposure_of
 from graphfx.plan.sources import Sources
@@ -181,11 +183,15 @@ class _Planner:
             exposure = replace(exposure, instants=())
         movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
         has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+        movers = gathered(movers, attributes.constants, flat.time.method, has_velocity)
         choice = choose_method(movers, flat, has_velocity, self.choices.get(path))
         cells = cells_met(movers, flat.time, choice.method)
         motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
         if choice.scheme.paced:
             attributes.store(SHARE, "float", "how long its steps are", "float")
+        motion.keeps = precision == 64 and motion.may_keep and "position" in attributes.columns and not holder.places_again
+        if motion.keeps:
+            attributes.store(REMAINDER, "vec3", "what rounding took from the position", "vec3")
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
         moves = bool(movers) or has_velocity

@@ -101,7 +101,8 @@ def _how_exact(movers: list[Mover]) -> str:
     if changing:
         when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
         return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
-    return f"one exact step{held}"
+    matrix = ", by the exponential of a matrix" if any(mover.matrix for mover in movers) else ""
+    return f"one exact step{matrix}{held}"
 
 
 def _of_order_one(movers: list[Mover]) -> str:

@@ -46,7 +46,8 @@ class Moment:
     `cell_time` gives a time of the p-th cell of noise that the step meets, see `motion.clock.cell_time`; `born` when a
     particle was born, where that may be within the step. All are from the start of the frame [s]. `opening` and `closing`
     are writers whose clock stands at the step's begin and end. `part` gives the number-th of `count` equal parts of it. A
-    step known to lie in one cell has its number as `cell`; `instant` gives the instant after a share of a particle's own.
+    step known to lie in one cell has its number as `cell`; `instant` gives the instant after a share of a particle's own. It
+    is the `k`-th of its frame, or lies in that.
     """
 
     builder: Builder
@@ -62,6 +63,8 @@ class Moment:
     cell: int | None = None
     born: Callable[[], Operand] | None = None
     instant: Callable[[float], Moment] = field(repr=False, default=None)  # type: ignore[assignment]
+    made: FrameProgram | None = None
+    k: int = 0
 
 
 @dataclass
@@ -172,6 +175,8 @@ class Moments:
             lambda: self.fixed(builder, name("start", 0), state),
             lambda: self.fixed(builder, name("end", 2), state),
             lambda j, n: self.whole_step(builder, k, state, j, n),
+            made=made,
+            k=k,
         )
 
     def fixed(self, builder: Builder, time: Any, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:
@@ -221,6 +226,8 @@ class Moments:
             cell,
             lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
             lambda share: self.own_step(builder, k, later(share), NO_TIME, state, cell),
+            self.made,
+            k,
         )
 
     def at(self, builder: Builder, time: Operand, state: State, told: dict[str, Operand] | None = None) -> ValueWriter:

@@ -17,6 +17,7 @@ from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_ste
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
+from graphfx.plan.rounding import settle
 from graphfx.plan.runge_kutta import write_runge_kutta
 from graphfx.plan.scheme import SIMPLE, Scheme, write_scheme
 from graphfx.plan.white_noise import WHOLE_STEP, WhiteNoise
@@ -42,12 +43,22 @@ class Motion:
     changing: frozenset[str] = frozenset()
     scheme: Scheme = SIMPLE
     linear: LinearMotion = field(init=False)
+    keeps: bool = False
+    """Whether what rounding takes from places is kept."""
 
     def __post_init__(self) -> None:
         """Gather what is summed into the linear motion."""
         parts = [mover for mover in self.movers if mover.role in ("linear", "noise") and not mover.idle]
         noise = WhiteNoise(self.cells)
         self.linear = LinearMotion(parts, self.arguments, self.under_conditions, self.changing, noise)
+
+    @property
+    def may_keep(self) -> bool:
+        """Return whether its ways are the same wherever they begin, so that what rounding takes from places can be kept."""
+        carried = self.has_velocity or any(not mover.writes_velocity for mover in self.linear.movers)
+        alone = self.method == "exact" and any(self.of(role) for role in INNER_ROLES)
+        plain = self.method != "sims" and self.scheme.counts == (1,) and not alone
+        return plain and carried and not self.linear.springs and not self.of("surface")
 
     def of(self, role: str) -> list[Mover]:
         """Return the operators of one role that act at all, in order."""
@@ -80,6 +91,11 @@ class Motion:
                     moment.writer.shared[id(value)] = moment.writer.argument(value)
         self.linear.prepare(moment, state)
 
+    @property
+    def is_brownian(self) -> bool:
+        """Return whether any noise is Brownian."""
+        return any(mover.is_brownian for mover in self.of("noise"))
+
     def prepare_step(self, moment: Moment) -> None:
         """Write, once for all who go parts of a step, the Brownian noise of it."""
         cells = (WHOLE_STEP,) if self.method == "sims" else range(self.cells)
@@ -94,9 +110,20 @@ class Motion:
         """
         if not isinstance(state.position, Column):
             return None
+        errors: dict[str, Operand] | None
         if self.scheme.runge_kutta:
-            return write_runge_kutta(self, moment, state)
-        return write_scheme(self.scheme, moment, state, self._symmetric_step)
+            errors = write_runge_kutta(self, moment, state)
+        else:
+            errors = write_scheme(self.scheme, moment, state, self._symmetric_step)
+        if self._decays:
+            settle(moment, state, self.linear.springs)
+        return errors
+
+    @property
+    def _decays(self) -> bool:
+        """Return whether anything may bring a speed to nothing."""
+        damped = any(mover.form is not None and mover.form.damping for mover in self.linear.movers)
+        return damped or self.linear.springs or any(mover.carries for mover in self.of("flow"))
 
     def _symmetric_step(self, moment: Moment, state: State) -> None:
         """Write one step of second order."""
@@ -141,17 +168,17 @@ class Motion:
         coefficients = self.linear.coefficients(moment, state, cell)
         drifts = self.has_velocity or coefficients.applied is not None
         if not inner:
-            write_flow(moment, state, coefficients, moment.dt)
+            write_flow(moment, state, coefficients, moment.dt, self.keeps)
             return
         if drifts:
-            write_flow(moment, state, coefficients, moment.half())
+            write_flow(moment, state, coefficients, moment.half(), self.keeps)
         for mover in inner[:-1]:
             self._apply(mover, moment, state, moment.half())
         self._apply(inner[-1], moment, state, moment.dt)
         for mover in reversed(inner[:-1]):
             self._apply(mover, moment, state, moment.half())
         if drifts:
-            write_flow(moment, state, coefficients, moment.half())
+            write_flow(moment, state, coefficients, moment.half(), self.keeps)
 
     def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""
@@ -206,7 +233,7 @@ class Motion:
     def _apply_paper(self, mover: Mover, moment: Moment, state: State) -> None:
         """Write V' = V + rate dt for a flow that has a rate, but not beyond where it leads; else what is done elsewhere."""
         linear = linear_form(mover)
-        if linear is None:
+        if linear is None or not mover.writes_velocity:
             self._apply(mover, moment, state, moment.dt)
             return
         moment.builder.note = mover.node.path

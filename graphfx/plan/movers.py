@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphfx.graph.flat import FlatNode
+from graphfx.graph.values import Value
 from graphfx.motion.probe import LinearForm, probe
 from graphfx.node import NodeType
 from graphfx.plan.evaluate import holds
@@ -21,13 +22,25 @@ STATE = ("position", "velocity")
 """What the whole motion of a particle changes."""
 
 
+@dataclass(frozen=True)
+class MatrixForm:
+    """A rate of change M (P, V) + b: whether there is a matrix M, and a constant b.
+
+    `uniform` are the arguments that are one for all particles, apart from which M depends on nothing.
+    """
+
+    matrix: bool
+    constant: bool
+    uniform: dict[str, Value]
+
+
 @dataclass
 class Mover:
     """One operator of the motion, as it will run: its function, the names of its arguments, and its role.
 
-    A linear one has a form. An `idle` one acts at no time that is simulated. `changing` are the attributes that are set
-    within a frame. An acceleration whose `exact_if` holds has its exact flow in `whole`: all motion of a particle on which
-    nothing else acts.
+    A linear one has a form, or that of a matrix. An `idle` one acts at no time that is simulated. `changing` are the
+    attributes that are set within a frame. An acceleration whose `exact_if` holds has its exact flow in `whole`: all motion
+    of a particle on which nothing else acts.
     """
 
     node: FlatNode
@@ -38,6 +51,7 @@ class Mover:
     idle: bool = False
     changing: frozenset[str] = frozenset()
     whole: Mover | None = None
+    matrix: MatrixForm | None = None
 
     @property
     def writes(self) -> tuple[str, ...]:
@@ -89,16 +103,19 @@ def mover_of(node: FlatNode, idle: bool = False, changing: frozenset[str] = froz
     """Return an operator as it will run.
 
     A flow whose `exact_if` holds runs as the linear operator that it then is; a linear operator without a simple form
-    is an acceleration. An acceleration whose `exact_if` holds stays one, and has its flow beside it.
+    is an acceleration or an applied velocity, unless all together have the form of a matrix: see `matrix_form`.
+    An acceleration whose `exact_if` holds stays one, and has its flow beside it.
     """
     node_type = node.node_type
     function, arguments, role = node_function(node_type), node_type.arguments, node_type.role
-    if role == "flow" and node_type.linear is not None and holds(node, node_type.exact_if):
+    if role == "flow" and node_type.exact_if and node_type.linear is not None and holds(node, node_type.exact_if):
         function, arguments, role = *_rate_function(node_type), "linear"
     form = None
     if role == "linear" and "velocity" in node_type.writes:
         form = probe(function.body, arguments, function.arguments)
         role = "linear" if form is not None else "acceleration"
+    elif role == "linear" and {"position", "velocity"} & {*node_type.reads}:
+        role = "velocity"
     mover = Mover(node, function, arguments, role, form, idle, changing)
     if node_type.flow is not None and holds(node, node_type.exact_if):
         flow = _beside(node_type, node_type.flow, "flow", ("vec3", "vec3"))

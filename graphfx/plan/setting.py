@@ -9,6 +9,7 @@ from typing import Any
 from graphfx.graph.flat import FlatNode
 from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic, events
+from graphfx.plan.rounding import LEAST
 from graphfx.plan.values import ValueWriter, node_function
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -71,7 +72,8 @@ class Setting:
             if self.node.node_type.role == "fade":
                 rate = writer.argument(self.node.arguments["rate"])
                 function = events.faded_vector if into.type == "vec3" else events.faded_number
-                inside.call(function, into, value, rate, self.dt or Uniform("0", "float", 0.0), into=into)
+                dt = self.dt or Uniform("0", "float", 0.0)
+                inside.call(function, into, value, rate, dt, LEAST[writer.precision], into=into)
             else:
                 inside.call(basic.copy_of(into.type), value, into=into)
 

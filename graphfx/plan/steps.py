@@ -162,7 +162,8 @@ class FrameWriter:
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
             going = turn.going(builder, finish)
-            self.motion.prepare_step(moments.own_step(builder.under(going), k, now, now, state))
+            if self.motion.is_brownian:
+                self.motion.prepare_step(moments.own_step(builder.under(going), k, now, now, state))
             if pacing is not None:
                 self._paced_turns(builder, moments, k, turn, pacing, finish)
             else:

@@ -74,13 +74,6 @@ def _of_type(node: FlatNode) -> Iterator[Problem]:
                 declared.location,
                 name,
             )
-        elif declared.role == "linear" and declared.writes == ("position",) and {"position", "velocity"} & set(declared.reads):
-            yield Problem(
-                "a linear operator whose rate of the position reads the position or the velocity is not carried out by "
-                "this version; write it as a flow, the exact change over dt",
-                declared.location,
-                name,
-            )
 
 
 def _carries(declared: NodeType) -> bool:

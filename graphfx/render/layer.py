@@ -12,7 +12,7 @@ if it is solid, and the total area r^2 of the still particle if it is exposed, a
 by c pixels, rho = max(sqrt(r^2 + c^2), 1). Of a segment that goes on in another, what lies beyond the joint is left to that.
 
 float32, relative to the centre of the tile's first pixel; long segments are clipped to the tile's
-neighbourhood first, in float64, so that they are as exact as short ones.
+neighbourhood first, and those of great radii to the closest points, in float64, so that they are as exact as short ones.
 """
 
 from __future__ import annotations
@@ -121,6 +121,16 @@ def _plane(joints, q, at, x, y):
 
 
 @inner
+def _beside_tile(x, y, dx, dy, first, last):
+    """Return first ... last narrowed to where the closest points to pixels of the tile are, and a pixel more."""
+    squared = dx * dx + dy * dy
+    start, across, down = -(x * dx + y * dy) / squared, (TILE_WIDTH - 1) * dx / squared, (TILE_HEIGHT - 1) * dy / squared
+    more = 1.0 / math.sqrt(squared)
+    first = min(max(first, start + min(across, 0.0) + min(down, 0.0) - more), last)
+    return first, max(min(last, start + max(across, 0.0) + max(down, 0.0) + more), first)
+
+
+@inner
 def localize(segments, q, left, top):
     """Return segment q relative to the pixel centre (left, top); its `inverse` is negative if it misses the tile."""
     places, values, kind = segments.places, segments.values, np.int64(segments.kind[q])
@@ -135,6 +145,8 @@ def localize(segments, q, left, top):
     if max(abs(dx), abs(dy)) > LONG:
         first, last = clipped(x, dx, -margin, TILE_WIDTH - 1 + margin, first, last)
         first, last = clipped(y, dy, -margin, TILE_HEIGHT - 1 + margin, first, last)
+        if margin > LONG and first < last:
+            first, last = _beside_tile(x, y, dx, dy, first, last)
     share = last - first
     confusion, confusion_way = np.float64(0.0), np.float64(0.0)
     if kind & BLURRED:

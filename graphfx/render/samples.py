@@ -86,7 +86,7 @@ def _room_for(counts: np.ndarray) -> Room:
 
 
 @inner
-def _count(segments, q, local, group, square, inside, counts, at, width):
+def _count(local, group, square, inside, counts, at, width):
     """Count one segment's fragments in one group, whose first pixel is number `at` of the band."""
     _, _, _, hit = fragments(local, group, square)
     bits = mask_bits(hit) & inside
@@ -95,27 +95,14 @@ def _count(segments, q, local, group, square, inside, counts, at, width):
             counts[at + lane // TILE_WIDTH * width + lane % TILE_WIDTH] += 1
 
 
-@compiled
-def count_samples(segments, tiles, layers, start, stop, counts):
-    """Count the fragments of each pixel of tiles start ... stop - 1, all in one row of tiles."""
-    for k in range(start, stop):
-        left, top = tile_corner(tiles, k)
-        for place in range(tiles.starts[k], tiles.starts[k + 1]):
-            q = tiles.members[place]
-            local = localize(segments, q, left + 0.5, top + 0.5)
-            first, last = groups_touched(local)
-            for group in range(first, last + 1):
-                if layers is not None and hides(layers, k, group, local.nearest):
-                    continue
-                inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
-                at = GROUP_HEIGHT * group * tiles.width + left
-                _count(segments, q, local, group, tiles.perspective, inside, counts, at, tiles.width)
-        if layers is not None and layers.rows[k] >= 0:
-            firsts = layers.firsts[layers.rows[k]]
-            for pixel in range(TILE_WIDTH * TILE_HEIGHT):
-                y, x = pixel // TILE_WIDTH, left + pixel % TILE_WIDTH
-                if x < tiles.width and top + y < tiles.height:
-                    counts[y * tiles.width + x] += firsts[pixel + 1] - firsts[pixel]
+@inner
+def _count_polygons(tiles, layers, k, left, top, counts):
+    """Count the fragments of polygons in each pixel of a tile."""
+    firsts = layers.firsts[layers.rows[k]]
+    for pixel in range(TILE_WIDTH * TILE_HEIGHT):
+        y, x = pixel // TILE_WIDTH, left + pixel % TILE_WIDTH
+        if x < tiles.width and top + y < tiles.height:
+            counts[y * tiles.width + x] += firsts[pixel + 1] - firsts[pixel]
 
 
 @inner
@@ -164,12 +151,18 @@ def _gather_polygons(tiles, layers, k, left, top, room):
 
 
 @compiled
-def gather_samples(segments, tiles, layers, start, stop, planes, room):
-    """Write the fragments of tiles start ... stop - 1, all in one row of tiles, each pixel's in order of rank."""
+def find_samples(segments, tiles, layers, start, stop, counts, planes, room):
+    """Count the fragments of each pixel of tiles start ... stop - 1, all in one row of tiles; or, if there is room, write them.
+
+    Each pixel's are in order of rank, those of polygons before all others.
+    """
     for k in range(start, stop):
         left, top = tile_corner(tiles, k)
         if layers is not None and layers.rows[k] >= 0:
-            _gather_polygons(tiles, layers, k, left, top, room)
+            if room is None:
+                _count_polygons(tiles, layers, k, left, top, counts)
+            else:
+                _gather_polygons(tiles, layers, k, left, top, room)
         for place in range(tiles.starts[k], tiles.starts[k + 1]):
             q = tiles.members[place]
             local = localize(segments, q, left + 0.5, top + 0.5)
@@ -179,7 +172,10 @@ def gather_samples(segments, tiles, layers, start, stop, planes, room):
                     continue
                 inside = lanes_inside(left, top + GROUP_HEIGHT * group, tiles.width, tiles.height)
                 at = GROUP_HEIGHT * group * tiles.width + left
-                _gather(segments, q, local, group, tiles.perspective, inside, planes, at, tiles.width, room)
+                if room is None:
+                    _count(local, group, tiles.perspective, inside, counts, at, tiles.width)
+                else:
+                    _gather(segments, q, local, group, tiles.perspective, inside, planes, at, tiles.width, room)
 
 
 @inner
@@ -248,11 +244,15 @@ def _band(segments: Segments, tiles: Tiles, layers: Layers | None, row: int, thr
     top, first = (tiles.row + row) * TILE_HEIGHT, row * tiles.across
     counts = np.zeros(min(TILE_HEIGHT, tiles.height - top) * tiles.width, np.int64)
     bounds = [(first + start, first + stop) for start, stop in ranges(tiles.across, threads)]
-    parallel_ranges(lambda _, start, stop: count_samples(segments, tiles, layers, start, stop, counts), bounds, threads)
+
+    def count(_: int, start: int, stop: int) -> None:
+        find_samples(segments, tiles, layers, start, stop, counts, None, None)
+
+    parallel_ranges(count, bounds, threads)
     room = _room_for(counts)
 
     def gather(_: int, start: int, stop: int) -> None:
-        gather_samples(segments, tiles, layers, start, stop, np.zeros(PLANES * LANES, np.float32), room)
+        find_samples(segments, tiles, layers, start, stop, counts, np.zeros(PLANES * LANES, np.float32), room)
         sort_samples(tiles, layers, start, stop, room)
 
     parallel_ranges(gather, bounds, threads)

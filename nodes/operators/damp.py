@@ -4,7 +4,7 @@
 
 and the position moves by the integral of V: the particle slows down until t = log(|V| / threshold) / damping and goes on
 evenly from there. The paper's V' = V max(1 - d dt, ...) is its first-order form, which overshoots at d dt > 1; this one is
-exact for any step. A negative damping speeds up, without a limit: `undamp` has one. [Sims 1990, 3.4.1]
+exact for any step. A negative damping speeds up, without a limit but e^68 in one step: `undamp` has one. [Sims 1990, 3.4.1]
 
 Also called: air friction, slow down.
 """
@@ -31,5 +31,5 @@ def damp(
     fast = (speed > threshold) | (damping < 0.0)
     least = where(fast, where(damping < 0.0, 0.0, threshold / speed), 1.0)
     slow = minimum(where(fast, where(damping > 0.0, log(1.0 / least) / damping, INFINITY), 0.0), dt)
-    way = slow * phi1(-(damping * slow)) + least * (dt - slow)
-    return position + velocity * way, velocity * maximum(exp(-(damping * dt)), least)
+    way = slow * phi1(minimum(-(damping * slow), 68.0)) + least * (dt - slow)
+    return position + velocity * way, velocity * maximum(exp(minimum(-(damping * dt), 68.0)), least)

@@ -5,12 +5,17 @@
 An applied velocity: the particle's own velocity does not turn with it. Exact for any dt. [Sims 1990, 3.3]
 """
 
-from graphfx.math import Vec3, sincos
+from graphfx.math import Vec3, cross, sincos
 from graphfx.math import rotate as turned
 from graphfx.node import operator, param
 
 
-@operator.flow(writes="position", neutral="speed == 0")
+def turning(position: Vec3, center: Vec3, axis: Vec3, speed: float) -> Vec3:
+    """Return the rate of change of the position."""
+    return cross(axis, position - center) * speed
+
+
+@operator.flow(writes="position", neutral="speed == 0", linear=turning)
 def rotate(
     position: Vec3,
     dt: float,

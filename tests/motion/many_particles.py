@@ -1,7 +1,8 @@
-"""The places of many particles that start together, under operators and a method."""
+"""Many particles with given states under operators."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -13,18 +14,19 @@ from graphfx.graph.flatten import flatten
 
 from .one_particle import LIBRARY
 
-STILL = {"in_sphere": {"center": [3, 0, 0], "radius": 1}}
+State = tuple[np.ndarray, np.ndarray]
 
 
-def burst(ops: list[Any], count: int, time: dict[str, Any], **sets: Any) -> Effect:
-    """Return the effect of `count` particles that are born at time 0, near (3, 0, 0)."""
-    given = {"position": STILL, "velocity": {"in_sphere": {"radius": 1}}, **sets}
+def effect_of(ops: list[Any], count: int, fps: float = 24, frames: int = 24, emit: Any = None, **time: Any) -> Effect:
+    """Return the effect of so many particles, made at frame 0."""
+    # Places and velocities that differ from particle to particle, so that both are stored.
+    sets = {"position": {"in_box": {}}, "velocity": {"in_box": {}}}
     document = {
         "graphfx": 1,
-        "time": {"fps": 24, "frames": [0, 24], "precision": 64, "method": "adaptive", **time},
+        "time": {"fps": fps, "frames": [0, frames], "precision": 64, **time},
         "nodes": {
-            "some": {"type": "emit", "rate": 0, "count": count, "set": given},
-            "act": {"type": "stack", "from": "some", "ops": ops},
+            "one": {"type": "emit", "count": count, "set": sets, **(emit or {})},
+            "act": {"type": "stack", "from": "one", "ops": ops},
             "view": {"type": "camera"},
             "frames": {"type": "image", "from": "act", "camera": "view", "shutter": 0},
         },
@@ -32,20 +34,30 @@ def burst(ops: list[Any], count: int, time: dict[str, Any], **sets: Any) -> Effe
     return Effect(flatten(document_of(document), LIBRARY))
 
 
-def carried(effect: Effect, threads: int = 1, reference: bool = False) -> Simulation:
-    """Return the simulation after the last frame."""
-    simulation = effect.simulation(threads, reference)
-    for _ in simulation.frames(effect.flat.time.last):
-        pass
-    return simulation
+def states(simulation: Simulation) -> State:
+    """Return positions and velocities as they are, (count, 3) each."""
+    store = simulation.particles["one"].store
+    position, velocity = (
+        np.stack([np.array(part[: store.count]) for part in store.column(name)], 1) for name in ("position", "velocity")
+    )
+    return position, velocity
 
 
-def places(simulation: Simulation) -> np.ndarray:
-    """Return the positions of all particles, (n, 3)."""
-    particles = simulation.particles["some"]
-    return np.stack([np.asarray(part)[: particles.store.count].astype(np.float64) for part in particles.value("position")], 1)
+def walk(ops: list[Any], position: Any, velocity: Any, **more: Any) -> Iterator[Simulation]:
+    """Yield the simulation at every frame, its particles having begun with the given states."""
+    position, velocity = np.broadcast_arrays(np.atleast_2d(np.asarray(position, float)), np.asarray(velocity, float))
+    found = effect_of(ops, len(position), **more)
+    simulation = found.simulation()
+    for number, _ in enumerate(simulation.frames(found.flat.time.last)):
+        if number == 0:
+            store = simulation.particles["one"].store
+            for name, given in (("position", position), ("velocity", velocity)):
+                for part, axis in zip(store.column(name), given.T, strict=True):
+                    part[: store.count] = axis
+        yield simulation
 
 
-def ends(ops: list[Any], count: int = 64, sets: dict[str, Any] | None = None, **time: Any) -> np.ndarray:
-    """Return the positions at the end."""
-    return places(carried(burst(ops, count, time, **(sets or {}))))
+def carried(ops: list[Any], position: Any, velocity: Any, **more: Any) -> State:
+    """Return positions and velocities at the last frame."""
+    *_, simulation = walk(ops, position, velocity, **more)
+    return states(simulation)

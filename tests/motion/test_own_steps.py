@@ -6,7 +6,7 @@ import pytest
 from graphfx.errors import GraphError
 from graphfx.motion import pacing
 
-from .many_particles import burst, carried, ends, places
+from .bursts import burst, carried, ends, places
 
 ATTRACTORS = [
     {"type": "gravity"},
@@ -120,7 +120,8 @@ def test_rounding_is_no_error_of_a_step():
     """An error that rounding hides is accepted, and the next step is longer, however small the tolerance."""
     one = np.float64(1.0)
     share = np.float64(0.25)
-    accepted, fails, following = pacing.judged.body(one * 1e-9, one * 2e-9, one * 1e-30, share, one, share, one * 2.0**-40, one * 16)
+    given = (one * 1e-9, one * 2e-9, one * 1e-30, share, one, share, one * 2.0**-40, one * 16)
+    accepted, fails, following = pacing.judged.body(*given)
     assert accepted and not fails and following == 0.5
 
 

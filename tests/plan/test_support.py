@@ -26,15 +26,6 @@ def odd({reads}, share: float = param(0.0, doc="A number.")) -> {result}:
     return {value}
 '''
 ODD = {
-    "grows": (
-        "linear",
-        '"position"',
-        "position: Vec3",
-        "Vec3",
-        "position",
-        "a linear operator whose rate of the position reads the position or the velocity is not carried out by this version; "
-        "write it as a flow, the exact change over dt",
-    ),
     "linear radius": (
         "linear",
         '"radius"',

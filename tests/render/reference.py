@@ -14,7 +14,7 @@ import numpy as np
 
 from .paths_reference import connect
 from .polygon_reference import composite, fragments_of
-from .seen import homogeneous
+from .seen import homogeneous, planes
 
 F = np.float32
 MOMENTS = {"linear": 0.15, "gaussian": 0.09780020026157243, "disc": 0.25}
@@ -201,15 +201,6 @@ def segments_of(stream, head_camera, tail_camera, width, height):
     return made
 
 
-def planes(head, tail, near, far):
-    """Return the part of s = 0 ... 1 between the planes, or None."""
-    if head == tail:
-        return (0, 1) if near <= head <= far else None
-    crossings = sorted([(near - head) / (tail - head), (far - head) / (tail - head)])
-    first, last = max(crossings[0], 0), min(crossings[1], 1)
-    return (first, last) if first <= last else None
-
-
 def keys_of(segment, left, top):
     """Return the float32 keys of the 8 x 16 pixels whose first pixel's centre is (left, top), as documented in layer.py."""
     x, y = segment.head[0] - left, segment.head[1] - top
@@ -222,6 +213,9 @@ def keys_of(segment, left, top):
             if way != 0:
                 a, b = (-margin - start) / way, (size + margin - start) / way
                 first, last = max(first, min(a, b)), min(last, max(a, b))
+        if margin > 64 and first < last:
+            nearest = [-((x - i) * dx + (y - j) * dy) / segment.length**2 for i in (0, 7) for j in (0, 15)]
+            first, last = np.clip([min(nearest) - 1 / segment.length, max(nearest) + 1 / segment.length], first, last)
     share = last - first
     k0, k1 = np.float64(segment.key[0]), np.float64(segment.key[1])
     local_x, local_y, way_x, way_y = F(x + first * dx), F(y + first * dy), F(dx * share), F(dy * share)

@@ -20,3 +20,12 @@ def homogeneous(camera, point, radius, width, height):
         diameter = lens**2 * (depth - focus) / (camera.f_stop * (focus - lens))  # on the film, m, times depth; signed
         confusion = diameter / 2 / 0.036 * width
     return np.array([x, y, depth, max(radius, 0) * scale, confusion])
+
+
+def planes(head, tail, near, far):
+    """Return the part of s = 0 ... 1 between the planes, or None."""
+    if head == tail:
+        return (0, 1) if near <= head <= far else None
+    crossings = sorted([(near - head) / (tail - head), (far - head) / (tail - head)])
+    first, last = max(crossings[0], 0), min(crossings[1], 1)
+    return (first, last) if first <= last else None

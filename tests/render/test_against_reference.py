@@ -68,6 +68,17 @@ def test_streaks_of_a_million_pixels():
     hold(Streaks(head, tail, 0.1, streak="solid", head_opacity=0.5), camera=FLAT)
 
 
+def test_streaks_that_widen_to_a_hundred_thousand_pixels():
+    """Seen where they are thin, thousands of pixels from an end, they are as exact as if they stayed so."""
+    camera, draw = Camera(projection="orthographic", view_width=64.0, position=(0, 0, 10)), np.random.default_rng(24)
+    for _ in range(20):
+        through, angle, length = draw.uniform(-20, 20, (3, 1)), draw.uniform(0, 6.28), 1e5 * 10 ** draw.uniform(3, 4.5)
+        along, before = np.array([[np.cos(angle)], [np.sin(angle)], [0]]), length * 10 ** draw.uniform(-4, -2)
+        through[2] = 0
+        head, tail = (through - before * along).astype(np.float32), (through + length * along).astype(np.float32)
+        hold(Streaks(head, tail, 2.0, 1e5, streak="solid", head_opacity=0.5), camera=camera, tolerance=2e-6)
+
+
 @pytest.mark.parametrize("falloff, streak", LOOKS)
 def test_particles_smaller_than_a_pixel(falloff, streak):
     """Radii from a hundredth of a pixel, still and moving."""

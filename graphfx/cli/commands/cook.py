@@ -103,6 +103,7 @@ class Cook:
     """Of each stream and attribute that was not finite the first frame of that, and how often it was seen."""
     restless: int = 0
     failed: int = 0
+    warnings: list[str] = field(default_factory=list)
     begun: bool = False
 
     def check(self) -> None:
@@ -131,11 +132,13 @@ class Cook:
                     first, before = self.faults.get((stream, attribute), (frame.frame, 0))
                     self.faults[stream, attribute] = first, before + count
                 self.restless, self.failed = frame.restless, frame.failed
+                told = [str(warning) for warning in frame.warnings]
+                self.warnings += told
                 progress.frame(frame)
                 if self.as_json:
                     self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
                                  "dropped": frame.dropped, "restless": frame.restless, "failed": frame.failed,
-                                 "files": list(map(str, frame.files))})
+                                 "files": list(map(str, frame.files)), **({"warnings": told} if told else {})})
 
             listeners.append(progress.compiling)
             try:
@@ -154,6 +157,8 @@ class Cook:
 
     def _warn(self) -> None:
         """Tell of particles that the pictures do not show as they should."""
+        for warning in () if self.as_json else self.warnings:
+            click.echo(f"warning: {warning}", err=True)
         for (stream, attribute), (first, count) in self.faults.items():
             whose = f"a particle of {stream}: its {attribute}" if stream else f"a triangle: one of its {attribute}"
             click.echo(f"{count:,} times {whose} is not finite, and it was not drawn, first in frame {first}; "

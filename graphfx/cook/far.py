@@ -1,0 +1,53 @@
+"""Warn of particles so far from the origin that 32 bits tell places only coarsely apart.
+
+Neighbours among numbers of 32 bits are 2^-23 of their size apart: a sixteenth of a metre at 1e6 m. What moves less than
+half of that in a step stands still.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from graphfx.cook.simulate import Simulation
+from graphfx.errors import Problem
+
+FAR = 1e6
+"""Coordinates from which on particles of 32 bits are told of [m]."""
+
+
+@dataclass
+class FarAway:
+    """Tells of each source once, at the first frame that shows particles of it far away."""
+
+    told: set[str] = field(default_factory=set)
+
+    def warnings(self, simulation: Simulation, frame: int) -> Iterator[Problem]:
+        """Yield what to tell at a frame."""
+        if simulation.plan.precision == 64:
+            return
+        for path, particles in simulation.particles.items():
+            if path in self.told or not particles.alive or not particles.has("position"):
+                continue
+            place = particles.value("position")
+            farthest = max(_farthest(np.asarray(part)) for part in place)
+            if farthest >= FAR:
+                self.told.add(path)
+                apart = float(np.spacing(np.float32(farthest)))
+                message = (
+                    f"from frame {frame} on there are particles at coordinates of {farthest:,.0f} m, where 32 bits tell places "
+                    f"{apart:g} m apart at best; add \"precision\": 64 to `time`, or bring the scene nearer to the origin"
+                )
+                yield Problem(message, particles.plan.node.location, f"nodes.{path}")
+
+
+def _farthest(coordinates: np.ndarray) -> float:
+    """Return the greatest finite size of coordinates [m]."""
+    flat = coordinates.ravel()
+    size = float(max(np.fmax.reduce(flat, initial=0.0), -np.fmin.reduce(flat, initial=0.0)))
+    if np.isfinite(size):
+        return size
+    finite = np.abs(flat[np.isfinite(flat)])
+    return float(finite.max(initial=0.0))
