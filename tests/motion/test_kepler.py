@@ -238,3 +238,13 @@ def test_a_fall_comes_back_the_way_it_came():
     np.testing.assert_allclose(distance[[0, 1, 4]], [distance[3], distance[2], 1.0], rtol=1e-12)
     assert (distance > 0).all() and distance[1] < 0.1 and distance[5] < 1e-6
     np.testing.assert_allclose(along @ velocity[:, :1], -(along @ velocity[:, 3:4]), rtol=1e-12)
+
+
+@pytest.mark.parametrize("bits, bound", [(32, 0.02), (64, 1e-4)])
+def test_a_fall_that_ends_at_the_centre(bits, bound):
+    """A fall of exactly the time that it takes keeps its energy -1, and the same time again brings it back to 1."""
+    fall = np.pi / np.sqrt(8)
+    position, velocity = moved(np.eye(3)[:, :1], np.zeros((3, 1)), 1.0, fall, bits=bits)
+    assert position[0, 0] > 0 and abs(velocity[0, 0] ** 2 / 2 - 1 / position[0, 0] + 1) <= bound
+    position, _ = moved(position, velocity, 1.0, fall, bits=bits)
+    np.testing.assert_allclose(position[0], 1, rtol=bound)
