@@ -35,6 +35,8 @@ class Matrix:
     time: Uniform | None
     fraction: int | None
     uniforms: list[Uniform] = field(default_factory=list)
+    rates: np.ndarray | None = None
+    """A, where its parameters stay the same."""
     known: dict[Any, np.ndarray] = field(default_factory=dict)
 
     def find(self, rates: np.ndarray, values: dict[int, Any], length: float) -> dict[int, Any]:
@@ -83,7 +85,9 @@ def find_matrices(
     for each in made.matrices.values():
         key = (tuple(map(id, each.members)), each.k)
         if key not in rates:
-            rates[key] = generator(each.members, middle(each.k), frame)
+            rates[key] = each.rates if each.rates is not None else generator(each.members, middle(each.k), frame)
+        if all(mover.constant for mover in each.members):
+            each.rates = rates[key]
         found |= each.find(rates[key], values, length)
     return found
 

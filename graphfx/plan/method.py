@@ -101,7 +101,10 @@ def _how_exact(movers: list[Mover]) -> str:
     if changing:
         when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
         return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
-    matrix = ", by the exponential of a matrix" if any(mover.matrix for mover in movers) else ""
+    matrices = [mover for mover in movers if mover.matrix]
+    matrix = ", by the exponential of a matrix" if matrices else ""
+    if any(mover.node.only is not None for mover in matrices):
+        matrix += " for each class of particles"
     return f"one exact step{matrix}{held}"
 
 
