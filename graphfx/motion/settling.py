@@ -36,9 +36,12 @@ def mean(velocity: Any, final: Any, dt: Any) -> Any:
 @SETTLING.function("vec3 vec3 vec3 float float float", "float")
 def least_speed(velocity: Any, normal: Any, mean: Any, rest_speed: Any, resolution: Any, tolerance: Any) -> Any:
     """The speed below which no particle leaves a surface: `rest_speed`, or what rounding may make of its velocity, or of the
-    height u^2 / (2 g) of its flight (16 tolerances of contacts)."""
-    g = maximum(-dot(mean, normal), 0.0)
-    return maximum(rest_speed, maximum(length(velocity) * resolution * 128.0, sqrt(g * tolerance * 32.0)))
+    height u^2 / (2 g) of its flight (16 tolerances of contacts). Where it is driven away from the surface there is none.
+    """
+    g = -dot(mean, normal)
+    hidden = maximum(length(velocity) * resolution * 128.0, sqrt(maximum(g, 0.0) * tolerance * 32.0))
+    driven = (g < length(mean) * resolution * -128.0) & (rest_speed < 1e30)
+    return where(driven, -1.0, maximum(rest_speed, hidden))
 
 
 @SETTLING.function("float float vec3 vec3 vec3 float float float float", "bool bool")
@@ -157,3 +160,21 @@ def level(velocity: Any, normal: Any) -> Any:
 def put_back(position: Any, normal: Any, distance: Any) -> Any:
     """P - distance N: on the surface."""
     return position - normal * distance
+
+
+@SETTLING.function("float vec3 vec3 float", "bool")
+def is_pressed(distance: Any, normal: Any, way: Any, tolerance: Any) -> Any:
+    """Whether a particle at rest is on the surface still, and its motion does not lead away from it."""
+    return (absolute(distance) <= tolerance * 16.0) & (dot(way, normal) <= tolerance * 4.0)
+
+
+@SETTLING.function("float vec3 vec3 float", "bool")
+def is_glued(distance: Any, normal: Any, way: Any, tolerance: Any) -> Any:
+    """Whether a particle at rest is on the surface still; where its motion leads does not count."""
+    return absolute(distance) <= tolerance * 16.0
+
+
+@SETTLING.function("vec3 vec3", "vec3")
+def ahead(position: Any, way: Any) -> Any:
+    """P + 8 way: beyond the hair's breadth by which it is kept off a sheet or a mesh, if that is where it is led."""
+    return position + way * 8.0

@@ -76,7 +76,8 @@ class Contacts:
                     inside = builder.call(basic.both, inside, builder.call(events.is_going_on, self.fate.fate), name="inside")
                 self._sims_bounce(surface, builder.under(inside), moment, state, distance, normal)
                 continue
-            event = inside if event is None else builder.call(basic.either, event, inside, name="event")
+            everywhere = builder.under(builder.program.context)
+            event = inside if event is None else everywhere.call(basic.either, event, inside, name="event")
         return event
 
     def _sims_bounce(

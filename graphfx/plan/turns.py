@@ -10,6 +10,7 @@ from graphfx.plan.hits import Fate
 from graphfx.plan.knots import Knots
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.pacing import Pacing
+from graphfx.plan.waking import Waking
 from graphfx.program import Builder, Column, Operand, Uniform
 
 
@@ -87,3 +88,18 @@ class Turn:
         left = inside.call(basic.difference, finish, then, name="left")
         self.fade(self.moments.own_step(inside, k, then, left, self.state), self.state)
         inside.call(basic.copy_number, finish, into=self.now)
+
+    def wake(self, builder: Builder, waking: Waking, k: int, end: Operand) -> None:
+        """Write who of those that are at rest as step `k` starts goes on, since nothing holds it."""
+        assert self.resting is not None
+        start = self.moments.made.time(builder, ("start", k))
+        here = builder.call(basic.both, builder.call(events.is_by, self.now, start), builder.call(basic.is_less, start, end))
+        here = builder.call(basic.both, here, self.resting, name="at rest")
+        if self.fate is not None:
+            here = builder.call(basic.both, here, builder.call(events.is_going_on, self.fate.fate), name="at rest")
+        inside = builder.under(here)
+        then = inside.call(basic.copy_number, start, name="then")
+        step = inside.call(basic.difference, self.moments.made.time(builder, ("end", k)), then, name="step")
+        woken = waking.woken(self.moments.own_step(inside, k, then, step, self.state), self.state)
+        builder.under(woken).call(basic.copy_number, start, into=self.now)
+        builder.under(builder.program.context).call(basic.but_not, self.resting, woken, into=self.resting)
