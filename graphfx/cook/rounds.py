@@ -8,7 +8,7 @@ import numpy as np
 
 from graphfx.cook.particles import Particles, padded
 
-MOST_ROUNDS = 1024
+MOST_ROUNDS = 256
 """Runs of 64 steps each that a particle may take in one frame; one that needs more is reported, and stays where it came to."""
 ByPlace = dict[str, tuple[np.ndarray, ...]]
 

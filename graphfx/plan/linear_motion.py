@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 from graphfx.motion import basic, linear, spring
@@ -16,6 +16,7 @@ from graphfx.plan.white_noise import WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
 
 X_AXIS, Y_AXIS = Uniform("(1, 0, 0)", "vec3", (1.0, 0.0, 0.0)), Uniform("(0, 1, 0)", "vec3", (0.0, 1.0, 0.0))
+ONE = Uniform("1", "float", 1.0)
 ZERO, NOUGHT = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0)), Uniform("0", "float", 0.0)
 FAR_AWAY = Uniform("(2^60, 0, 0)", "vec3", (basic.FAR, 0.0, 0.0))
 """So far that what pulls there tells its stiffness to the last digit, wherever it pulls to."""
@@ -34,6 +35,11 @@ class Coefficients:
     stiffness: Operand | None = None
     applied: Operand | None = None
     matrix: MatrixMotion | None = None
+
+    @property
+    def empty(self) -> bool:
+        """Return whether there is nothing of it."""
+        return all(getattr(self, each.name) is None for each in fields(self))
 
 
 @dataclass
@@ -167,6 +173,21 @@ def write_flow(moment: Moment, state: State, total: Coefficients, dt: Operand, k
         builder.call(basic.advance, way, total.applied, dt, into=way)
     if keeps:
         builder.call(basic.joined, position, way, into=(position, way))
+
+
+def write_without_drift(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:
+    """Write the exact flow of a linear motion over dt in which velocities carry nothing: V' = (g - k P) - d V + w x V, P' = u."""
+    builder, position, velocity = moment.builder, state.position, state.velocity
+    assert isinstance(position, Column)
+    constant = total.constant
+    if total.stiffness is not None:
+        constant = builder.call(basic.sims_pull, constant or ZERO, position, total.stiffness, ONE, name="constant")
+    still = builder.call(basic.copy_vector, position, name="still")
+    if velocity is not None and (constant is not None or total.damping is not None or total.turning is not None):
+        alone = Coefficients(constant, total.damping, total.turning)
+        write_flow(moment, State(still, velocity, state.attribute), alone, dt)
+    if total.applied is not None:
+        builder.call(basic.advance, position, total.applied, dt, into=position)
 
 
 def _write_spring(moment: Moment, state: State, total: Coefficients, dt: Operand) -> None:

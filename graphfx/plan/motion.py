@@ -4,16 +4,19 @@
 
 L is the linear motion, which carries a particle by its velocity. A flow F that gives position and velocity acts in it
 on the velocity alone, so that nothing is carried twice; only where it stands alone is it the whole motion, and exact.
+Where an acceleration has an exact flow, that stands in place of L, and what is linear acts on the velocity alone.
 A step is split where it meets another cell of noise: within a cell noise is a constant of L.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic, runge_kutta
-from graphfx.plan.linear_motion import LinearMotion, write_flow, write_paper_step
+from graphfx.plan.linear_motion import Coefficients, LinearMotion, write_flow, write_paper_step, write_without_drift
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
@@ -166,19 +169,36 @@ class Motion:
             self._apply(inner[0].whole or inner[0], moment, state, moment.dt, alone)
             return
         coefficients = self.linear.coefficients(moment, state, cell)
-        drifts = self.has_velocity or coefficients.applied is not None
         if not inner:
-            write_flow(moment, state, coefficients, moment.dt, self.keeps)
+            write_flow(moment, state, coefficients, moment.dt)
             return
-        if drifts:
-            write_flow(moment, state, coefficients, moment.half(), self.keeps)
-        for mover in inner[:-1]:
-            self._apply(mover, moment, state, moment.half())
-        self._apply(inner[-1], moment, state, moment.dt)
-        for mover in reversed(inner[:-1]):
-            self._apply(mover, moment, state, moment.half())
-        if drifts:
-            write_flow(moment, state, coefficients, moment.half(), self.keeps)
+        parts: list[Callable[[Operand], None]]
+        parts = [partial(self._apply, mover, moment, state) for mover in inner if mover is not self.base]
+        if self.base is not None and not coefficients.empty:
+            parts.insert(0, partial(write_without_drift, moment, state, coefficients))
+        drift = self._drift(moment, state, coefficients)
+        if not parts:
+            drift(moment.dt)
+            return
+        outer = [drift] if self.has_velocity or coefficients.applied is not None else []
+        for part in (*outer, *parts[:-1]):
+            part(moment.half())
+        parts[-1](moment.dt)
+        for part in reversed((*outer, *parts[:-1])):
+            part(moment.half())
+
+    @property
+    def base(self) -> Mover | None:
+        """Return the acceleration around whose exact flow all else is composed: one that acts on all, at all times."""
+        found = (mover for mover in self.of("acceleration") if mover.whole is not None)
+        always = (mover for mover in found if mover.node.during is None and mover.node.only is None)
+        return next(always, None) if self.method in ("strang", "adaptive") and self.has_velocity else None
+
+    def _drift(self, moment: Moment, state: State, coefficients: Coefficients) -> Callable[[Operand], None]:
+        """Return what writes how velocities carry particles: on the base's exact flow, or with all that is linear."""
+        if self.base is not None and self.base.whole is not None:
+            return partial(self._apply, self.base.whole, moment, state, alone=True)
+        return partial(write_flow, moment, state, coefficients)
 
     def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""

@@ -132,3 +132,18 @@ def test_rk45_refuses_flows():
     (problem,) = caught.value.problems
     assert problem.path == "nodes.act/vortex"
     assert problem.message == "rk45 needs rates of change, and vortex is a flow; choose 'auto' or 'adaptive'"
+
+
+LINEAR = [{"type": "spring", "frequency": 2}, {"type": "damp"}, {"type": "spiral"}]
+
+
+@pytest.mark.parametrize("also", [[{"type": "gravity"}], LINEAR], ids=["gravity", "linear"])
+def test_an_orbit_carries_what_disturbs_it_little(also):
+    """About a point without softening the orbit is the base: one step a frame is right, and rk45 comes to the same with many."""
+    ops = [{"type": "attract", "strength": 10, "softening": 0}, *also]
+    simulation = carried(burst(ops, 64, {"tolerance": 1e-5}))
+    true = ends(ops, order=8, tolerance=1e-10)
+    assert simulation.particles["some"].turns < 64 * 24 * 1.5
+    assert np.quantile(np.linalg.norm(places(simulation) - true, axis=1), 0.95) < 1e-5
+    other = ends(ops, method="rk45", tolerance=1e-9)
+    assert np.quantile(np.linalg.norm(other - true, axis=1), 0.95) < 1e-7
