@@ -104,11 +104,27 @@ def lines(study: Study) -> list[str]:
         if truth.unknown:
             found.append(f"  {truth.unknown:,} of {truth.particles:,} particles are left out where the references differ by more "
                          f"than a tenth of the tolerance")
+    found += _stiffness(study)
     found += [f"failed: {name}: {message}" for message, name in _messages(study).items()]
     found += [f"left out: {'; '.join(what)}: {why}" for why, what in by_reason(study).items()]
     advised = advice(study)
     name = f"{advised.result.candidate.name}: " if advised.result else ""
     return [*found, f"recommended: {name}{advised.reason}"]
+
+
+def _stiffness(study: Study) -> list[str]:
+    """Return what the operators reach, and where energy is kept."""
+    found = []
+    for each in study.reached:
+        measured = {"w": each.w, "d": each.d, "s": each.s}
+        rates = ", ".join(f"{name} h {value:.2g}" for name, value in measured.items() if value > 1e-6)
+        strang = "without limit" if each.exact else f"from {each.strang}"
+        sims = "never" if each.sims is None else f"from {each.sims}"
+        found.append(f"reached: {each.operator} ({each.type}): {rates or 'nothing'}; stable steps a frame: strang {strang}, "
+                     f"rk45 from {each.rk45}, sims {sims}")
+    if study.conserved:
+        found.append(f"energy is kept by {', '.join(study.conserved)}: what settings make or lose of it is on the page")
+    return found
 
 
 def _messages(study: Study) -> dict[str, str]:

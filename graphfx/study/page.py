@@ -15,8 +15,8 @@ from graphfx.study.recommend import advice, by_reason, keeps, length
 from graphfx.study.study import Result, Study, quartiles
 from graphfx.study.style import style
 
-HEADS = ("setting", "95th percentile", "median", "RMS", "greatest", "over", "failed", "evaluations", "time", "quartiles",
-         "x sims", "order")
+HEADS = ("setting", "95th percentile", "median", "RMS", "greatest", "over", "failed", "evaluations", "energy", "time",
+         "quartiles", "x sims", "order")
 
 
 def escaped(text: object) -> str:
@@ -31,7 +31,7 @@ def page(study: Study) -> str:
     sheet = f"<style>{style(tuple(STATISTICS), len(FAMILIES))}</style>"
     body = [*_header(study), *_verdict(study)]
     if study.truth is not None and study.truth.until is not None:
-        body += [*_plots(study), *_shot(study), *_table(study)]
+        body += [*_plots(study), *_shot(study), *_stiffness(study), *_table(study)]
     body += [*_left_out(study), *_how_to_read(study)]
     footer = '<footer>Made by graphfx study. The same as data: <a href="study.json">study.json</a>.'
     return "\n".join([f'<!doctype html>\n<html lang="en">\n<head>\n{head}\n{sheet}\n</head>\n<body>\n<main>', *body,
@@ -141,6 +141,30 @@ def _shot(study: Study) -> Iterator[str]:
     yield "</tbody></table></section></div>"
 
 
+def _stiffness(study: Study) -> Iterator[str]:
+    if not study.reached:
+        return
+    heads = ("operator", "type", "source", "w h", "d h", "s h", "strang", "rk45", "sims")
+    yield "<h2>How stiff the scene is</h2>"
+    yield ('<p class="soft">The largest rates that particles really reach, times the length of a frame: w of springs and pulls, '
+           "d of damping, s of turning. The last columns tell how many steps a frame each method takes to be stable; accuracy may "
+           "ask for more.</p>")
+    yield '<div class="card wide"><table><thead><tr>' + "".join(f'<th scope="col">{head}</th>' for head in heads)
+    yield "</tr></thead><tbody>"
+    for each in study.reached:
+        rates = [f"{value:.2g}" if value > 1e-6 else "0" for value in (each.w, each.d, each.s)]
+        strang = "no limit" if each.exact else f"{each.strang}"
+        sims = '<span class="bad">never</span>' if each.sims is None else f"{each.sims}"
+        cells = (escaped(each.operator), escaped(each.type), escaped(each.source), *rates, strang, f"{each.rk45}", sims)
+        yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
+    yield "</tbody></table></div>"
+    if study.conserved:
+        yield (f'<p class="soft">Energy is defined and kept for {escaped(", ".join(study.conserved))}: all accelerations there '
+               "have a potential. What each setting makes or loses of it is in the table.</p>")
+    else:
+        yield '<p class="soft">Energy is kept by no source of this graph, so no drift is told.</p>'
+
+
 def families_of(study: Study) -> list[tuple[Family, int]]:
     """Return the families and precisions that ran, in order."""
     return list(dict.fromkeys((each.candidate.family, each.candidate.precision) for each in study.results if not each.message))
@@ -174,6 +198,7 @@ def _cells(study: Study, result: Result) -> list[str]:
         f'<span class="{verdict}">{told(errors.p95, floor.p95)}</span>', told(errors.median, floor.median),
         told(errors.rms, floor.rms), told(errors.greatest, floor.greatest), f"{errors.over:,}",
         f'<span class="bad">{failed:,}</span>' if failed else "0", f"{result.evaluations:.3g}",
+        " ".join(f"{value:.0e}" for value in result.energy.values()),
         f"{middle:,.0f} ms" if math.isfinite(middle) else "", f"{low:,.0f} to {high:,.0f}" if math.isfinite(middle) else "",
         f"{ratio:.2f}" if math.isfinite(ratio) else "",
     ]

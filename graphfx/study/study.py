@@ -15,13 +15,14 @@ import numpy as np
 
 from graphfx.cook.pilot import choices_for
 from graphfx.cook.sample import Sample
-from graphfx.cook.trial import Trials, sample_of, spread_frames
+from graphfx.cook.trial import States, Trials, sample_of, spread_frames
 from graphfx.errors import GraphfxError
 from graphfx.graph.flat import FlatGraph
 from graphfx.plan.make import make_plan
 from graphfx.study.candidates import FAMILIES, PRECISIONS, Candidate, Family, candidates
 from graphfx.study.errors import Errors, observed_order
 from graphfx.study.reference import Truth, references, truth_of
+from graphfx.study.stiffness import Scene, Stiffness
 
 PARTICLES, FRAMES, SECONDS = 1000, 24, 60.0
 """What a study takes, unless told: particles of each source, frames compared, seconds of processor time."""
@@ -50,6 +51,10 @@ class Result:
     capped: int = 0
     restless: int = 0
     message: str = ""
+    last: dict[str, States] = field(default_factory=dict)
+    """The states at the last frame that is compared, by source."""
+    energy: dict[str, float] = field(default_factory=dict)
+    """The RMS of the energy that was made or lost by then, over the mean kinetic energy, by source."""
 
     @property
     def sound(self) -> bool:
@@ -69,6 +74,10 @@ class Study:
     own: Result | None = None
     """The graph as it is."""
     left_out: list[tuple[str, str]] = field(default_factory=list)
+    reached: list[Stiffness] = field(default_factory=list)
+    """What the operators reach."""
+    conserved: list[str] = field(default_factory=list)
+    """Sources of which energy is defined, and kept."""
     stopped: bool = False
 
     @property
@@ -106,6 +115,7 @@ class Maker:
     frames: Sequence[int] | None = None
     seconds: float = SECONDS
     precisions: tuple[int, ...] = PRECISIONS
+    repeats: int = MOST_REPEATS
     tell: Callable[[str, float], None] = lambda what, share: None
     trials: list[tuple[Result, Trials]] = field(default_factory=list)
 
@@ -138,6 +148,8 @@ class Maker:
             for candidate, share in self._affordable(study, begun):
                 self.tell(candidate.name, share)
                 self._try(study, candidate, sample)
+            self.tell("rates and energy", 1.0)
+            self._look(study, sample)
             self._repeat(study, begun)
         finally:
             study.results.sort(key=lambda each: (each.candidate.precision, FAMILIES.index(each.candidate.family)))
@@ -202,19 +214,31 @@ class Maker:
         distances = study.truth.distances(trial.states)
         result.errors, result.by_frame = distances.errors(study.tolerance), distances.by_frame()
         result.evaluations, result.capped, result.restless = trial.evaluations, trial.failed, trial.restless
+        result.last = {path: frames[study.frames[-1]] for path, frames in trial.states.items()}
         result.seconds.append(trial.seconds)
         self.trials.append((result, trials))
         return result
 
+    def _look(self, study: Study, sample: Sample) -> None:
+        """Find what the operators reach, and what becomes of energy."""
+        scene, last = Scene(self.flat, sample, study.frames[-1]), study.frames[-1]
+        assert study.truth is not None
+        study.reached = scene.reached
+        study.conserved = [path for path in scene.conserved() if path in study.truth.states]
+        for result in [*study.results, *([study.own] if study.own else [])]:
+            if not result.message:
+                result.energy = {path: scene.drift(path, study.truth.states[path][last], result.last[path])
+                                 for path in study.conserved}
+
     def _repeat(self, study: Study, begun: float) -> None:
         """Run all settings again, in turn, for their run times: whole rounds, as long as there is time for another."""
         took = sum(result.seconds[0] for result, _ in self.trials)
-        for number in range(2, MOST_REPEATS + 1):
+        for number in range(2, self.repeats + 1):
             if time.process_time() - begun + took > self.seconds:
                 return
             found = []
             for result, trials in self.trials:
-                self.tell(f"run times, round {number}: {result.candidate.name}", number / MOST_REPEATS)
+                self.tell(f"run times, round {number}: {result.candidate.name}", number / self.repeats)
                 found.append(trials.run(study.frames).seconds)
             for (result, _), seconds in zip(self.trials, found, strict=True):
                 result.seconds.append(seconds)

@@ -45,7 +45,7 @@ class Strict(HTMLParser):
 
 @pytest.fixture(scope="module")
 def study() -> Study:
-    return Maker(two_vortices(), most=10, frames=[12, 24], precisions=(64,), seconds=20.0).make()
+    return Maker(two_vortices(), most=10, frames=[12, 24], precisions=(64,), seconds=20.0, repeats=1).make()
 
 
 @pytest.fixture(scope="module")
