@@ -147,8 +147,8 @@ def _stiffness(study: Study) -> Iterator[str]:
     heads = ("operator", "type", "source", "w h", "d h", "s h", "strang", "rk45", "sims")
     yield "<h2>How stiff the scene is</h2>"
     yield ('<p class="soft">The largest rates that particles really reach, times the length of a frame: w of springs and pulls, '
-           "d of damping, s of turning. The last columns tell how many steps a frame each method takes to be stable; accuracy may "
-           "ask for more.</p>")
+           "d of damping, s of turning. The last columns tell how many steps a frame each method takes to be stable; accuracy "
+           "may ask for more.</p>")
     yield '<div class="card wide"><table><thead><tr>' + "".join(f'<th scope="col">{head}</th>' for head in heads)
     yield "</tr></thead><tbody>"
     for each in study.reached:
