@@ -11,7 +11,7 @@ import numpy as np
 from graphfx.cook.executor import Executor, Job
 from graphfx.cook.meshes import Meshes
 from graphfx.cook.particles import Particles
-from graphfx.motion.clock import Interval, cell_time
+from graphfx.motion.clock import Interval, cell_time, cuts_within
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import Plan
 from graphfx.plan.matrix_motion import find_matrices
@@ -76,6 +76,13 @@ class Programs:
         fps = self.plan.flat.time.fps
         return {each.time: max(interval.length - each.back / fps, 0.0) for each in particles.plan.exposure.within}
 
+    def _cuts(self, particles: Particles, interval: Interval) -> dict[str, float]:
+        """Return the times at which steps are cut, from the start of an interval [s]; before it where there are fewer."""
+        motion = particles.plan.motion
+        found = cuts_within(motion.cuts, interval.start, interval.length)
+        found += [-1.0] * (motion.most_cuts - len(found))
+        return {f"cut {number}": time for number, time in enumerate(found)}
+
     def uniforms(self, made: FrameProgram, particles: Particles, interval: Interval) -> dict[int, Any]:
         """Return the values of a program's uniforms over an interval."""
         substeps = self.plan.flat.time.substeps
@@ -85,6 +92,7 @@ class Programs:
             "length": length,
             "half": length / 2,
             **self.instants(particles, interval),
+            **self._cuts(particles, interval),
             "frame start": interval.start,
             "frame end": interval.length,
             "frame": interval.frame,

@@ -24,7 +24,7 @@ from graphfx.cook.programs import Programs
 from graphfx.cook.sample import Sample
 from graphfx.cook.spawns import Spawns
 from graphfx.errors import CookError, Problem
-from graphfx.motion.clock import Clock, Interval
+from graphfx.motion.clock import Clock, Interval, cuts_within
 from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.store.processors import Column, ProcessorSet
 
@@ -147,6 +147,8 @@ class Simulation:
         if main is not None:
             if interval.length * self.clock.fps <= 1 - 1e-9:
                 return range(before)  # it begins the preroll; the shutter opens in another of its steps than is usual
+            if cuts_within(particles.plan.motion.cuts, interval.start, interval.length):
+                return range(before)
             rejected = self.programs.run(main, particles, interval, excluded=dying, count=before)
         if not len(rejected) or not len(dying):
             return dying if len(dying) else rejected

@@ -7,7 +7,7 @@ if preroll is not a whole number of frames.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -15,6 +15,8 @@ DENOMINATOR = 1_000_000
 """Rates and prerolls are taken as fractions with at most this denominator: 23.976 is exact, as is 1/3."""
 CELL_RATE = 24
 """Cells of held noise in a second: a draw of noise holds for 1/24 s, whatever the frames and steps are."""
+NEAR = 1e-9
+"""Times that are so close together are one [s]."""
 ON_THE_EDGE = 1e-6
 """A step that begins so little before a cell's end [cells] begins in the next."""
 GRID = 16 * 25 * 4096
@@ -75,6 +77,17 @@ class Clock:
     @property
     def _before(self) -> Fraction:
         return Fraction(self.preroll).limit_denominator(DENOMINATOR)
+
+
+def cuts_within(cuts: Iterable[float], start: float, length: float) -> list[float]:
+    """Return which of some times [s] fall inside an interval, from its start; one within 1e-9 s of an end is at that end."""
+    return [cut - start for cut in sorted(cuts) if NEAR < cut - start < length - NEAR]
+
+
+def most_cuts(cuts: Iterable[float], fps: float) -> int:
+    """Return how many of some times may fall into one frame."""
+    times = sorted(cuts)
+    return max((sum(first <= cut <= first + 1 / fps for cut in times) for first in times), default=0)
 
 
 def most_cells(fps: float, preroll: float, substeps: int) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from graphfx.graph.flat import FlatGraph, FlatNode
 from graphfx.graph.names import OUTPUTS, PICTURES
 from graphfx.graph.values import Literal, Value
+from graphfx.motion.clock import most_cuts
 from graphfx.node import INFINITY
 from graphfx.plan.birth import BirthWriter
 from graphfx.plan.ends import EndWriter
@@ -18,7 +20,7 @@ from graphfx.plan.liveness import MEASURED, Attributes, Reading, find_attributes
 from graphfx.plan.matrix_form import gathered
 from graphfx.plan.method import Choice, cells_met, choose_method
 from graphfx.plan.moment import Constants
-from graphfx.plan.motion import Motion, mover_of
+from graphfx.plan.motion import Motion, Mover, mover_of
 from graphfx.plan.pacing import SHARE
 from graphfx.plan.pictures import Drawn, ImagePlan, MoviePlan, image_plan
 from graphfx.plan.rounding import REMAINDER
@@ -181,20 +183,10 @@ class _Planner:
         attributes = self.attributes[path]
         if not all(instant.column in attributes.columns for instant in exposure.instants):
             exposure = replace(exposure, instants=())
-        movers = [mover_of(node, bool(never_acts(node, flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
-        has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
-        movers = gathered(movers, attributes.constants, flat.time.method, has_velocity)
-        choice = choose_method(movers, flat, has_velocity, self.choices.get(path))
-        cells = cells_met(movers, flat.time, choice.method)
-        motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
-        if choice.scheme.paced:
-            attributes.store(SHARE, "float", "how long its steps are", "float")
-        motion.keeps = precision == 64 and motion.may_keep and "position" in attributes.columns and not holder.places_again
-        if motion.keeps:
-            attributes.store(REMAINDER, "vec3", "what rounding took from the position", "vec3")
+        motion, choice = self._motion(holder, attributes)
         constants = Constants(holder, attributes, seed, precision)
         writer = FrameWriter(holder, attributes, motion, constants.find, seed, precision, substeps)
-        moves = bool(movers) or has_velocity
+        moves = bool(motion.movers) or motion.has_velocity
         ends = EndWriter(writer)
         put = exposure.within if ends.moves else []
         births = BirthWriter(holder, attributes, seed, precision)
@@ -221,6 +213,24 @@ class _Planner:
             births.write(holder.maker, ["position"]) if nearest else None,
             [spawning.plan(node, self._home(node), [each.path for each in holder.of_role("surface")]) for node in holder.spawns],
         )
+
+    def _motion(self, holder: Holder, attributes: Attributes) -> tuple[Motion, Choice]:
+        """Return how a source's particles move, and have stored what that needs."""
+        time = self.flat.time
+        movers = [mover_of(node, bool(never_acts(node, self.flat)), holder.changing) for node in holder.of_role(*MOVING_ROLES)]
+        has_velocity = "velocity" in attributes.columns or _nonzero(attributes.constants.get("velocity"))
+        movers = gathered(movers, attributes.constants, time.method, has_velocity)
+        choice = choose_method(movers, self.flat, has_velocity, self.choices.get(holder.path))
+        cells = cells_met(movers, time, choice.method)
+        motion = Motion(movers, choice.method, has_velocity, cells, holder.changing, choice.scheme)
+        motion.cuts = cut_times(holder, movers) if choice.method != "sims" else frozenset()
+        motion.most_cuts = most_cuts(motion.cuts, time.fps)
+        if choice.scheme.paced:
+            attributes.store(SHARE, "float", "how long its steps are", "float")
+        motion.keeps = time.precision == 64 and motion.may_keep and "position" in attributes.columns and not holder.places_again
+        if motion.keeps:
+            attributes.store(REMAINDER, "vec3", "what rounding took from the position", "vec3")
+        return motion, choice
 
     @staticmethod
     def _counted(holder: Holder, attributes: Attributes, cluster: str) -> bool:
@@ -250,6 +260,12 @@ class _Planner:
         found = find_attributes(reading, exposure, self.prune)
         self.stored[holder.path] = [name for name in found.types if name in holder.table or name in holder.clusters]
         return found
+
+
+def cut_times(holder: Holder, movers: list[Mover]) -> frozenset[float]:
+    """Return when operators that move or fade begin to act, or end [s]."""
+    nodes = [*(mover.node for mover in movers if not mover.idle), *holder.of_role("fade")]
+    return frozenset(float(time) for node in nodes for time in node.during or () if math.isfinite(time))
 
 
 def _nonzero(value: Value | None) -> bool:

@@ -46,6 +46,10 @@ class Motion:
     changing: frozenset[str] = frozenset()
     scheme: Scheme = SIMPLE
     linear: LinearMotion = field(init=False)
+    cuts: frozenset[float] = frozenset()
+    """When operators begin to act, or end: steps are cut there [s]."""
+    most_cuts: int = 0
+    """How many of these may fall into one frame."""
     keeps: bool = False
     """Whether what rounding takes from places is kept."""
 

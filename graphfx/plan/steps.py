@@ -7,7 +7,7 @@ own begin and end inside the frame, and stops at every contact. What follows at 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from graphfx.motion import basic, events
 from graphfx.plan.contacts import RESOLUTION, Contacts
@@ -173,10 +173,12 @@ class FrameWriter:
             going = turn.going(builder, finish)
             if self.motion.is_brownian:
                 self.motion.prepare_step(moments.own_step(builder.under(going), k, now, now, state))
-            if pacing is not None:
-                self._paced_turns(builder, moments, k, turn, pacing, finish)
-            else:
-                left = self._turns(builder, k, turn, finish, going)
+            for here in self._parts(builder, made, finish):
+                if pacing is not None:
+                    self._paced_turns(builder, moments, k, turn, pacing, here)
+                    continue
+                going = turn.going(builder, here) if self.motion.most_cuts else going
+                left = self._turns(builder, k, turn, here, going)
                 unfinished = left if unfinished is None else builder.call(basic.either, unfinished, left)
             if self.fades and resting is not None:
                 turn.rest(builder, k, finish)
@@ -192,6 +194,12 @@ class FrameWriter:
             made.program.stores |= {"fate": fate.fate, "ended": now, "surface": fate.surface, "begun": fate.begun, **fate.hit}
         share(made.program)
         return made
+
+    def _parts(self, builder: Builder, made: FrameProgram, finish: Column) -> Iterator[Column]:
+        """Write the ends of the parts of a step that ends at `finish`: where operators begin to act or end, and its own."""
+        for number in range(self.motion.most_cuts):
+            yield builder.call(basic.earlier, finish, made.time(builder, f"cut {number}"), name="cut")
+        yield finish
 
     @staticmethod
     def _turns(builder: Builder, k: int, turn: Turn, finish: Column, going: Column) -> Column:
