@@ -19,7 +19,7 @@ def effect_of(
 ) -> Effect:
     """Return the effect of one particle that is born at `start` as the simulation begins."""
     time = {"fps": fps, "frames": [0, frames], "precision": 64, "method": method}
-    time |= {name: more.pop(name) for name in ("precision", "substeps", "preroll") if name in more}
+    time |= {name: more.pop(name) for name in ("precision", "substeps", "preroll", "tolerance") if name in more}
     emit = more.pop("emit", {})
     sets = {"position": list(start), "velocity": list(velocity), **more}
     document = {
