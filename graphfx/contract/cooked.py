@@ -18,7 +18,7 @@ SIZE = [32, 18]
 def cooks(subject: Subject) -> None:
     """The graph that its docs show cooks, and has the node in its plan."""
     data = sample(subject.node_type, subject.library)
-    data["time"] = {"frames": [1, LAST]}
+    data["time"] = {"frames": [1, LAST], "method": "strang"}
     data["nodes"]["frames"]["size"] = SIZE
     effect = Effect(flatten(document_of(data), subject.library))
     with tempfile.TemporaryDirectory() as folder:

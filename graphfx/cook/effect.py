@@ -33,7 +33,7 @@ from graphfx.errors import OutputError, Problem, UsageError
 from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
-from graphfx.plan.make import Plan
+from graphfx.plan.make import Plan, make_plan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -65,9 +65,14 @@ class Effect:
         self.flat = flat
 
     @cached_property
+    def draft(self) -> Plan:
+        """What will run, but for how motion is computed where that must be tried: for all that is asked before any work."""
+        return make_plan(self.flat)
+
+    @cached_property
     def plan(self) -> Plan:
         """What will run."""
-        return planned(self.flat)
+        return planned(self.flat, self.draft)
 
     @property
     def frames(self) -> list[int]:
@@ -87,8 +92,9 @@ class Effect:
         `report` is called after each frame. Raise LimitError, before any work, for what would not fit.
         """
         wanted, limits = sorted(set(frames)) if frames is not None else self.frames, limits or CookLimits()
-        check_files(self.plan, Path(out), wanted)
-        check_disk(self.plan, Path(out), wanted, limits)
+        check_limits(self.draft, limits)
+        check_files(self.draft, Path(out), wanted)
+        check_disk(self.draft, Path(out), wanted, limits)
         written: list[Path] = []
         with closing(self._cooked(Path(out), wanted, threads or available_threads(), limits)) as cooked:
             for made in cooked:
@@ -172,8 +178,9 @@ class Effect:
         Raise LimitError for what would not fit.
         """
         limits = limits or CookLimits()
+        check_limits(self.draft, limits)
+        check_views(self.draft)
         check_limits(self.plan, limits)
-        check_views(self.plan)
         executor: Executor = (
             ReferenceExecutor(self.plan.precision) if reference else BlockExecutor(self.plan.precision, threads or 1)
         )

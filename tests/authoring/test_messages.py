@@ -157,7 +157,7 @@ def test_unknown_setting() -> None:
     with pytest.raises(GraphError) as error:
         graphfx.Graph(fbs=24)
     assert told(error) == (f"{HERE}:{line() - 1}: a graph has no setting 'fbs'. Did you mean 'fps'?\n  Graph takes: doc, seed, "
-                           "name, folder, library, fps, frames, preroll, substeps, method, tolerance, precision")
+                           "name, folder, library, fps, frames, preroll, substeps, method, order, tolerance, precision")
 
 
 def test_unknown_names_are_no_attributes() -> None:

@@ -141,7 +141,7 @@ def test_refused_before_any_work(tmp_path: Path, movie: dict[str, Any], image: d
     """What cannot be written is told at its place, before anything is made."""
     with pytest.raises(OutputError) as caught:
         made(nodes={"movie": {"type": "movie", "image": "frames", **movie}}, image=image).cook(tmp_path / "out")
-    assert str(caught.value) == f"test.json:40:15: nodes.movie.file: {message}"
+    assert str(caught.value) == f"test.json:41:15: nodes.movie.file: {message}"
     assert names(tmp_path) == []
 
 
@@ -158,7 +158,7 @@ def test_missing_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(OutputError) as caught:
         made(nodes={"movie": {"type": "movie", "image": "frames"}}).cook(tmp_path / "out")
-    assert str(caught.value) == ("test.json:37:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which is not "
+    assert str(caught.value) == ("test.json:38:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which is not "
                                  'installed; install it by: pip install "graphfx[video]", or write .webp')
     assert names(tmp_path) == []
 
@@ -171,7 +171,7 @@ def test_damaged_library_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
     with pytest.raises(OutputError) as caught:
         made(nodes={"movie": {"type": "movie", "image": "frames"}}).cook(tmp_path / "out")
     assert str(caught.value) == (
-        "test.json:37:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which cannot be loaded: libx264.so: no such file; "
+        "test.json:38:14: nodes.movie.file: '{graph}.mp4': .mp4 needs PyAV, which cannot be loaded: libx264.so: no such file; "
         'install it again by: pip install --force-reinstall "graphfx[video]", or write .webp')
 
 

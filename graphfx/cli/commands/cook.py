@@ -111,9 +111,9 @@ class Cook:
         from graphfx.cook.files import check_files
         from graphfx.cook.limits import check_disk, check_limits
 
-        check_limits(self.effect.plan, self.limits)
-        check_files(self.effect.plan, self.out, self.frames)
-        check_disk(self.effect.plan, self.out, self.frames, self.limits)
+        check_limits(self.effect.draft, self.limits)
+        check_files(self.effect.draft, self.out, self.frames)
+        check_disk(self.effect.draft, self.out, self.frames, self.limits)
 
     def run(self) -> None:
         """Cook all frames; say what was made."""
@@ -150,7 +150,7 @@ class Cook:
         if self.as_json:
             self._print({"frames": len(self.done), "files": len(files), "seconds": round(seconds, 3)})
         else:
-            movies = [str(movie_file(movie, self.effect.flat.name, self.out)) for movie in self.effect.plan.movies]
+            movies = [str(movie_file(movie, self.effect.flat.name, self.out)) for movie in self.effect.draft.movies]
             stills = len(files) - len(movies)
             told = [*([f"{counted(stills, 'file')} in {self.out}"] if stills else []), *movies]
             click.echo(f"wrote {', '.join(told)} ({in_words(seconds)})")
@@ -179,9 +179,9 @@ class Cook:
         self.check()
         images = [{"node": image.node.path, "size": [int(number) for number in image.value("size")],
                    "files": [str(self.out / file_name(str(image.value("file")), self.effect.flat.name, frame))
-                             for frame in self.frames]} for image in self.effect.plan.stills]
+                             for frame in self.frames]} for image in self.effect.draft.stills]
         movies = [{"node": movie.node.path, "size": [int(number) for number in movie.image.value("size")],
-                   "files": [str(movie_file(movie, self.effect.flat.name, self.out))]} for movie in self.effect.plan.movies]
+                   "files": [str(movie_file(movie, self.effect.flat.name, self.out))]} for movie in self.effect.draft.movies]
         if self.as_json:
             self._print({"frames": self.frames, "images": images, **({"movies": movies} if movies else {})})
             return
@@ -210,7 +210,7 @@ class Cook:
         """Return what is left when a cook stops early, and the command for it."""
         from graphfx.cook.frames import frames_text
 
-        movies = self.effect.plan.movies
+        movies = self.effect.draft.movies
         left = [frame for frame in self.frames if movies or frame not in set(self.done)]
         made = f"after frame {self.done[-1]}; all files in {self.out} are whole" if self.done else "before any file was written"
         if movies:
