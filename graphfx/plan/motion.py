@@ -174,7 +174,7 @@ class Motion:
             return
         coefficients = self.linear.coefficients(moment, state, cell)
         if not inner:
-            write_flow(moment, state, coefficients, moment.dt)
+            write_flow(moment, state, coefficients, moment.dt, self.keeps)
             return
         parts: list[Callable[[Operand], None]]
         parts = [partial(self._apply, mover, moment, state) for mover in inner if mover is not self.base]
@@ -202,7 +202,7 @@ class Motion:
         """Return what writes how velocities carry particles: on the base's exact flow, or with all that is linear."""
         if self.base is not None and self.base.whole is not None:
             return partial(self._apply, self.base.whole, moment, state, alone=True)
-        return partial(write_flow, moment, state, coefficients)
+        return partial(write_flow, moment, state, coefficients, keeps=self.keeps)
 
     def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""
