@@ -18,7 +18,7 @@ from graphfx.plan.pacing import Pacing
 from graphfx.plan.scheme import kept_state
 from graphfx.plan.settling import Settling
 from graphfx.plan.sliding import Sliding
-from graphfx.plan.surfaces import distance_of
+from graphfx.plan.surfaces import distance_of, moves
 from graphfx.program import Builder, Column, Operand, Uniform
 
 FIXED = {
@@ -234,6 +234,9 @@ class Contacts:
         concerned = self.hits.concern(surface)
         speed = builder.call(events.approach, into[1], normal, name="speed") if concerned else None
         builder.call(contact.respond, *into[:2], distance, normal, *response, into=into)
+        if moves(surface):  # it carries along who would rest on it
+            sliding = builder.call(basic.either, sliding, stopped, name="sliding")
+            stopped = builder.call(basic.but_not, stopped, stopped, name="stopped")
         if speed is not None:
             self._tell(Hit(surface, builder, into[0], normal, speed, stopped), moment, state, moment.end())
         if resting is not None:

@@ -45,6 +45,16 @@ def test_it_falls_when_the_surface_goes():
     np.testing.assert_allclose(found[-1], -9.81 * 0.5**2 / 2, rtol=1e-12)
 
 
+@pytest.mark.parametrize("friction", [0, 1])
+def test_a_floor_that_moves_carries_what_lies_on_it(friction):
+    """What lies on a floor that rises and stands is on it at every frame, and never under it where it sinks."""
+    height = {"keys": [[0, [0, 0, 0]], [0.5, [0, 1, 0]], [1, [0, 1, 0]], [2, [0, 0.3, 0]]]}
+    found = heights([{"type": "gravity"}, STICKY | {"resilience": 0.3, "friction": friction, "point": height}])
+    wanted = np.interp(np.arange(49) / 24, [0, 0.5, 1, 2], [0, 1, 1, 0.3])
+    np.testing.assert_allclose(found[:25], wanted[:25], rtol=0, atol=1e-12)
+    assert (found >= wanted - 1e-12).all() and found[-1] < 0.5
+
+
 def test_what_is_stuck_stays():
     """A surface with the response stick holds for ever what it has caught, on its under side too."""
     ceiling = {"type": "bounce_plane", "normal": [0, -1, 0], "response": "stick"}
