@@ -25,7 +25,7 @@ RESPONSE = (
     Parameter("friction", "float", 0.0, "", 0.0, 1.0, (), "Share of the speed along the surface that a bounce takes."),
     Parameter("friction_threshold", "float", 0.0, "m/s", 0.0, None, (), "Friction does not act on a particle slower than this."),
     Parameter("rest_speed", "float", 0.0, "m/s", 0.0, None, (), "A particle that would leave more slowly comes to rest at once."),
-    Parameter("event_speed", "float", 0.1, "m/s", 0.0, None, (), "A slower hit is no event, nor counted, unless it ends in rest."),
+    Parameter("event_speed", "float", 0.1, "m/s", 0.0, None, (), "A slower hit counts as no event, unless it ends in rest."),
     Parameter("response", "string", "bounce", "", None, None, ("bounce", "stick", "slide", "die"), "What it does at a hit."),
 )
 """Parameters that every surface has besides its function's: how a particle answers to the contact."""
