@@ -105,6 +105,8 @@ def lines(study: Study) -> list[str]:
             found.append(f"  {truth.unknown:,} of {truth.particles:,} particles are left out where the references differ by more "
                          f"than a tenth of the tolerance")
     found += _stiffness(study)
+    found += [f"picture of frame {each.frame}: {each.name}: RMS {each.rms:.2e}, PSNR {each.psnr:.1f} dB"
+              for each in study.pictures]
     found += [f"failed: {name}: {message}" for message, name in _messages(study).items()]
     found += [f"left out: {'; '.join(what)}: {why}" for why, what in by_reason(study).items()]
     advised = advice(study)

@@ -78,6 +78,11 @@ FIELDS = {
     "stiffness[].strang": "steps a frame with which strang is stable; 1 where the operator's flow is exact",
     "stiffness[].rk45": "steps a frame that rk45 needs at least",
     "stiffness[].sims": "steps a frame with which sims is stable; null if it never is",
+    "pictures": "how pictures differ from that of a reference, where that was asked for",
+    "pictures[].name": "the setting",
+    "pictures[].frame": "the frame",
+    "pictures[].rms": "root mean square of the differences of sRGB values from 0 to 1",
+    "pictures[].psnr": "peak signal-to-noise ratio [dB]; null if they do not differ",
     "left_out": "what was not tried (what), and the reason (why)",
     "stopped": "whether the study was stopped before its end",
 }
@@ -161,6 +166,8 @@ def study_data(study: Study) -> dict[str, Any]:
         "stiffness": [{"source": each.source, "operator": each.operator, "type": each.type, "w": number(each.w),
                        "d": number(each.d), "s": number(each.s), "strang": each.strang, "rk45": each.rk45, "sims": each.sims}
                       for each in study.reached],
+        "pictures": [{"name": each.name, "frame": each.frame, "rms": number(each.rms), "psnr": number(each.psnr)}
+                     for each in study.pictures],
         "left_out": [{"what": what, "why": why} for what, why in study.left_out],
         "stopped": study.stopped,
     }

@@ -31,7 +31,7 @@ def page(study: Study) -> str:
     sheet = f"<style>{style(tuple(STATISTICS), len(FAMILIES))}</style>"
     body = [*_header(study), *_verdict(study)]
     if study.truth is not None and study.truth.until is not None:
-        body += [*_plots(study), *_shot(study), *_stiffness(study), *_table(study)]
+        body += [*_plots(study), *_shot(study), *_pictures(study), *_stiffness(study), *_table(study)]
     body += [*_left_out(study), *_how_to_read(study)]
     footer = '<footer>Made by graphfx study. The same as data: <a href="study.json">study.json</a>.'
     return "\n".join([f'<!doctype html>\n<html lang="en">\n<head>\n{head}\n{sheet}\n</head>\n<body>\n<main>', *body,
@@ -139,6 +139,15 @@ def _shot(study: Study) -> Iterator[str]:
                  '<span class="bad">not reached</span>' if enough is None else f"{enough:.3g}")
         yield "<tr>" + "".join(f"<td>{cell}</td>" for cell in cells) + "</tr>"
     yield "</tbody></table></section></div>"
+
+
+def _pictures(study: Study) -> Iterator[str]:
+    if study.pictures:
+        yield f'<h2>The picture of frame {study.pictures[0].frame}</h2><ul>'
+        for each in study.pictures:
+            psnr = f"PSNR {each.psnr:.1f} dB" if math.isfinite(each.psnr) else "the same picture"
+            yield f"<li>{escaped(each.name)}: RMS {each.rms:.2e} of full white, {psnr}</li>"
+        yield "</ul>"
 
 
 def _stiffness(study: Study) -> Iterator[str]:

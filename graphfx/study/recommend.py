@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphfx.study.candidates import FAMILIES
-from graphfx.study.study import Result, Study, quartiles
+from graphfx.study.films import picture_errors
+from graphfx.study.study import BASELINE, Result, Study, quartiles
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,14 @@ def by_reason(study: Study) -> dict[str, list[str]]:
     for what, why in study.left_out:
         found.setdefault(why, []).append(what)
     return found
+
+
+def compare_pictures(study: Study) -> None:
+    """Compare pictures of the last frame: of the graph as it is, as recommended, and by the scheme of the paper."""
+    time, best = study.flat.time, advice(study).result
+    others = [*([best] if best else []), *study.of(BASELINE, time.precision)[:1]]
+    times = {"the graph as it is": time} | {each.candidate.name: each.candidate.time(time) for each in others}
+    study.pictures = picture_errors(study.flat, study.frames[-1], times)
 
 
 def keeps(result: Result, tolerance: float) -> bool:

@@ -21,6 +21,7 @@ from graphfx.graph.flat import FlatGraph
 from graphfx.plan.make import make_plan
 from graphfx.study.candidates import FAMILIES, PRECISIONS, Candidate, Family, candidates
 from graphfx.study.errors import Errors, observed_order
+from graphfx.study.films import PictureError
 from graphfx.study.reference import Truth, references, truth_of
 from graphfx.study.stiffness import Scene, Stiffness
 
@@ -78,6 +79,8 @@ class Study:
     """What the operators reach."""
     conserved: list[str] = field(default_factory=list)
     """Sources of which energy is defined, and kept."""
+    pictures: list[PictureError] = field(default_factory=list)
+    """Where they were compared."""
     stopped: bool = False
 
     @property
@@ -96,7 +99,8 @@ class Study:
             return None
         found = self.of(family, precision)
         work, errors = [each.evaluations for each in found], [each.errors.p95 for each in found]
-        return observed_order(work, errors, 3 * self.truth.difference.p95, self.truth.extent / 10)
+        rounding = 30 * self.truth.extent * 2.0 ** (-24 if precision == 32 else -53)
+        return observed_order(work, errors, max(3 * self.truth.difference.p95, rounding), self.truth.extent / 10)
 
     def ratios(self, result: Result) -> list[float]:
         """Return the run times of a setting over those of `BASELINE` of one step, in the same rounds."""

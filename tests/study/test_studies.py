@@ -11,7 +11,8 @@ import pytest
 from graphfx.cook.trial import Trials
 from graphfx.study.candidates import FAMILIES, Candidate, Family, candidates
 from graphfx.study.data import FIELDS, paths_in, study_data
-from graphfx.study.recommend import advice
+from graphfx.study.films import picture_errors
+from graphfx.study.recommend import advice, compare_pictures
 from graphfx.study.reference import Reference, references, truth_of
 from graphfx.study.study import Maker, Result, Study, by_rank
 
@@ -22,7 +23,9 @@ SMALL = {"most": 20, "frames": [6, 12, 24], "seconds": 30.0, "repeats": 2}
 
 @pytest.fixture(scope="module")
 def vortices() -> Study:
-    return Maker(two_vortices(), precisions=(64,), **SMALL).make()
+    study = Maker(two_vortices(), precisions=(64,), **SMALL).make()
+    compare_pictures(study)
+    return study
 
 
 MOMENTS = list(range(4, 97, 4))
@@ -164,3 +167,13 @@ def test_nothing_tried_gives_no_advice():
     """Without a setting that ran, none is recommended, and that is said."""
     study = Study(free_fall(), [1])
     assert advice(study).result is None and Result(Candidate(FAMILIES[0], 32)).sound
+
+
+def test_pictures_are_compared_where_that_is_asked_for():
+    """An exact setting gives the reference's picture up to rounding; PSNR is -20 log10 of the RMS."""
+    emit = {"count": 30, "set": {"position": {"in_box": {"max": [1, 1, 1]}}, "radius": 0.2, "velocity": [0.1, 0, 0]}}
+    flat = flat_of([{"type": "gravity", "acceleration": [0, -0.1, 0]}], emit, frames=6)
+    times = {"exact": flat.time, "elsewhere": replace(flat.time, method="sims", fps=2.0)}
+    exact, elsewhere = picture_errors(flat, 6, times)
+    assert exact.psnr > 60 and elsewhere.psnr < 40
+    assert elsewhere.psnr == pytest.approx(-20 * np.log10(elsewhere.rms))

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 @click.option("--seconds", type=click.FloatRange(1), metavar="S", default=60.0, show_default=True,
               help="Processor time after which no more settings are tried, nor runs repeated.")
 @click.option("--out", metavar="DIR", help="Folder for study.html and study.json; out/NAME OF THE GRAPH if not given.")
+@click.option("--pictures", is_flag=True, help="Compare pictures of the last frame too; all particles are simulated for them.")
 @click.option("--png", is_flag=True, help="Write the plots as study.png too; needs the extra `study`.")
 @parameters
 @library
@@ -35,8 +36,8 @@ if TYPE_CHECKING:
 @debug
 @click.pass_context
 def command(context: click.Context, graph: str | None, particles: int, frames: str | None, seconds: float, out: str | None,
-            png: bool, parameters: dict[str, str], library: tuple[str, ...], as_json: bool, fields: bool,
-            stability: bool) -> None:
+            pictures: bool, png: bool, parameters: dict[str, str], library: tuple[str, ...], as_json: bool,
+            fields: bool, stability: bool) -> None:
     """Measure what each method makes of GRAPH, and what it costs.
 
     Some of its particles run under every method that can carry them, with many steps and tolerances, in 32 and 64 bits.
@@ -60,7 +61,7 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
         from graphfx.study.picture import need_matplotlib
 
         need_matplotlib()
-    study = _make(graph, parameters, library, particles, frames, seconds, as_json)
+    study = _make(graph, parameters, library, particles, frames, seconds, pictures, as_json)
     folder = Path(out) if out is not None else None if as_json else Path("out") / study.flat.name
     files = _write(study, folder, png) if folder is not None else []
     if as_json:
@@ -78,7 +79,7 @@ def command(context: click.Context, graph: str | None, particles: int, frames: s
 
 
 def _make(graph: str, parameters: dict[str, str], library: tuple[str, ...], particles: int, frames: str | None,
-          seconds: float, quiet: bool) -> Study:
+          seconds: float, pictures: bool, quiet: bool) -> Study:
     """Study a graph; one without a picture is studied as its preview."""
     from graphfx.lanes.host import use_wide_registers
 
@@ -87,6 +88,7 @@ def _make(graph: str, parameters: dict[str, str], library: tuple[str, ...], part
     from graphfx.cook.preview import is_placed, preview_of
     from graphfx.graph.flatten import flatten
     from graphfx.node import Library, library_roots
+    from graphfx.study.recommend import compare_pictures
     from graphfx.study.study import Maker
 
     known = Library(library_roots(library))
@@ -95,7 +97,11 @@ def _make(graph: str, parameters: dict[str, str], library: tuple[str, ...], part
         flat = preview_of(flat, known, "study.webp")
     wanted = parse_frames(frames, flat.time.first, flat.time.last) if frames is not None else None
     with Telling(quiet=quiet) as telling:
-        return Maker(flat, particles, wanted, seconds, tell=telling.tell).make()
+        study = Maker(flat, particles, wanted, seconds, tell=telling.tell).make()
+        if pictures and not study.stopped and study.own is not None:
+            telling.tell("pictures", 1.0)
+            compare_pictures(study)
+    return study
 
 
 def _try_operators(context: click.Context, library: tuple[str, ...], out: str | None, as_json: bool) -> None:
