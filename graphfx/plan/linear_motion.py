@@ -64,6 +64,11 @@ class LinearMotion:
         return MatrixMotion(linear) if any(mover.matrix for mover in linear) else None
 
     @property
+    def follows_state(self) -> bool:
+        """Return whether what it is depends on where a particle is, or on how it moves."""
+        return any(mover.follows_state for mover in self.movers)
+
+    @property
     def springs(self) -> bool:
         """Return whether what it does depends on the place."""
         return self.matrix is not None or any(mover.form is not None and mover.form.stiffness for mover in self.movers)

@@ -99,8 +99,8 @@ def _how_exact(movers: list[Mover]) -> str:
     held = " in each 1/24 s, for which noise holds" if any(not mover.is_brownian for mover in noise) else ""
     held += _of_order_one(movers)
     if changing:
-        when = "held from the start" if any(mover.follows_state for mover in changing) else "taken at the middle"
-        return f"exact{held} but for {', '.join(mover.node.node_type.name for mover in changing)}, {when} of each step"
+        names = ", ".join(mover.node.node_type.name for mover in changing)
+        return f"exact{held} but for {names}, taken at the middle of each step"
     matrices = [mover for mover in movers if mover.matrix]
     matrix = ", by the exponential of a matrix" if matrices else ""
     if any(mover.node.only is not None for mover in matrices):

@@ -65,6 +65,8 @@ class Moment:
     instant: Callable[[float], Moment] = field(repr=False, default=None)  # type: ignore[assignment]
     made: FrameProgram | None = None
     k: int = 0
+    conditions: ValueWriter | None = None
+    """What finds whom operators act on, where that is another one than `writer`."""
 
 
 @dataclass

@@ -13,10 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import Any
 
 from graphfx.graph.values import Literal, Name
 from graphfx.motion import basic, runge_kutta
-from graphfx.plan.linear_motion import Coefficients, LinearMotion, write_flow, write_paper_step, write_without_drift
+from graphfx.plan.halfway import half_way, operands_half_way, write_linear
+from graphfx.plan.linear_motion import Coefficients, LinearMotion, write_paper_step, write_without_drift
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
@@ -174,13 +176,13 @@ class Motion:
             return
         coefficients = self.linear.coefficients(moment, state, cell)
         if not inner:
-            write_flow(moment, state, coefficients, moment.dt, self.keeps)
+            self._drift(moment, state, coefficients, cell)(moment.dt)
             return
         parts: list[Callable[[Operand], None]]
         parts = [partial(self._apply, mover, moment, state) for mover in inner if mover is not self.base]
         if self.base is not None and not coefficients.empty:
             parts.insert(0, partial(write_without_drift, moment, state, coefficients))
-        drift = self._drift(moment, state, coefficients)
+        drift = self._drift(moment, state, coefficients, cell)
         if not parts:
             drift(moment.dt)
             return
@@ -198,22 +200,22 @@ class Motion:
         always = (mover for mover in found if mover.node.during is None and mover.node.only is None)
         return next(always, None) if self.method in ("strang", "adaptive") and self.has_velocity else None
 
-    def _drift(self, moment: Moment, state: State, coefficients: Coefficients) -> Callable[[Operand], None]:
+    def _drift(self, moment: Moment, state: State, coefficients: Coefficients, cell: int) -> Callable[[Operand], None]:
         """Return what writes how velocities carry particles: on the base's exact flow, or with all that is linear."""
         if self.base is not None and self.base.whole is not None:
             return partial(self._apply, self.base.whole, moment, state, alone=True)
-        return partial(write_flow, moment, state, coefficients, keeps=self.keeps)
+        return partial(write_linear, self.linear, moment, state, coefficients, cell, self.keeps)
 
     def under_conditions(self, mover: Mover, moment: Moment) -> Builder:
         """Return the builder under the operator's own conditions: `during`, and `only`."""
-        builder = moment.builder
+        builder, writer = moment.builder, moment.conditions or moment.writer
         if mover.node.during is not None:
             start, end = mover.node.during
-            ends = [moment.writer.operand(float(t)) for t in (start, end)]
-            within = builder.call(basic.is_within, moment.writer.operand(Name("time")), *ends, name="during")
+            ends = [writer.operand(float(t)) for t in (start, end)]
+            within = builder.call(basic.is_within, writer.operand(Name("time")), *ends, name="during")
             builder = builder.under(builder.call(basic.both, builder.mask, within), builder.note)
         if mover.node.only is not None:
-            only = moment.writer.operand(mover.node.only)
+            only = writer.operand(mover.node.only)
             builder = builder.under(builder.call(basic.both, builder.mask, only, name="only"), builder.note)
         return builder
 
@@ -225,13 +227,16 @@ class Motion:
         if mover.role == "flow":
             kept = mover.writes if alone or not mover.carries else ("velocity",)
             written = [state.read(n) if n in kept else Column("unused", "vec3") for n in mover.writes]
-            builder.call(mover.function, *operands, into=tuple(written))  # type: ignore[arg-type]
+            into: Any = tuple(written)
+            if self.method != "sims" and any(mover.follows(name) for name in kept):
+                operands = operands_half_way(self.arguments, mover, builder, moment, state, dt, into)
+            builder.call(mover.function, *operands, into=into)
             return
         name = "position" if mover.role == "velocity" else "velocity"
         changed = state.read(name)
         assert isinstance(changed, Column)
         rate = builder.call(mover.function, *operands, name=mover.role)
-        if name in mover.arguments and self.method != "sims":
+        if (name in mover.arguments or mover.follows(name)) and self.method != "sims":
             rate = self._rate_along(mover, moment, state, builder, name, rate, dt)
         builder.call(basic.advance, changed, rate, dt, into=changed)
 
@@ -243,6 +248,14 @@ class Motion:
 
         def rate_after(rate: Column, advance: Function) -> Column:
             place = builder.call(advance, changed, rate, dt, name="on the way")
+            if mover.follows(name):
+
+                def there(later: Moment) -> Column:
+                    operands = self.arguments(mover, later, state, {"dt": dt})
+                    made: Column = builder.call(mover.function, *operands, name=f"{mover.role} on the way")
+                    return made
+
+                return half_way(builder, moment, state, lambda: builder.call(basic.copy_vector, place, into=changed), there)  # type: ignore[arg-type]
             operands = self.arguments(mover, moment, state, {"dt": dt, name: place})
             found: Column = builder.call(mover.function, *operands, name=f"{mover.role} on the way")
             return found

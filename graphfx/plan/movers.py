@@ -88,8 +88,11 @@ class Mover:
     @property
     def follows_state(self) -> bool:
         """Return whether its parameters depend on where the particle is, or on how it moves."""
-        names = set().union(*map(names_in, self.node.arguments.values()))
-        return bool(names & {"position", "velocity"})
+        return self.follows("position") or self.follows("velocity")
+
+    def follows(self, name: str) -> bool:
+        """Return whether its parameters depend on an attribute."""
+        return any(name in names_in(value) for value in self.node.arguments.values())
 
 
 def linear_form(mover: Mover) -> Mover | None:

@@ -61,6 +61,12 @@ class ValueWriter:
         self.called: dict[Any, tuple[Operand, ...]] = {}
         self._found: dict[Any, Operand] = {}
 
+    def again(self) -> ValueWriter:
+        """Return another like it, which finds again what it has found."""
+        made = ValueWriter(self.builder, self.scope, self.clock, self.steps, self.precision, self.rate)
+        made.shared = self.shared
+        return made
+
     def operand(self, tree: Any) -> Operand:
         """Return the operand that holds a value, a part of an expression, or a number; the same for equal ones."""
         key = identity_of(tree)

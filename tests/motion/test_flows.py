@@ -91,7 +91,7 @@ def test_methods_are_told_with_their_reasons():
     assert [(plan.method, plan.reason) for plan in told] == [
         ("exact", "all motion is linear (gravity, spiral): one exact step"),
         ("exact", "all motion is linear (gravity, damp): exact but for damp, taken at the middle of each step"),
-        ("exact", "all motion is linear (damp, gravity): exact but for damp, held from the start of each step"),
+        ("exact", "all motion is linear (damp, gravity): exact but for damp, taken at the middle of each step"),
         ("exact", "all motion is linear (damp, gravity): one exact step"),
         ("strang", "flows that do not commute (free flight, vortex, vortex): composed symmetrically, second order"),
         ("sims", "asked for: the paper's scheme, first order, operations in stack order"),
