@@ -57,7 +57,7 @@ ATTRIBUTES = {
         Attribute("fade_color", "color", (1.0, 1.0, 1.0), "", "A colour to fade to."),
         Attribute("normal", "vec3", (0.0, 1.0, 0.0), "", "Normal of the surface that it comes from."),
         Attribute("tangent", "vec3", (0.0, 1.0, 0.0), "", "Up-most tangent of the surface that it comes from."),
-        Attribute("hits", "float", 0.0, "", "How often it met a surface at its event_speed or faster, or came to rest; counted by the engine."),
+        Attribute("hits", "float", 0.0, "", "How often it met a surface, but for slow hits; counted by the engine."),
         Attribute("lives", "float", 0.0, "", "How many lives it had before this one; counted by `recycle`."),
         Attribute("generation", "float", 0.0, "", "How many spawns it is away from an emitter; counted by `spawn`."),
         Attribute("life", "float", INFINITY, "s", "Age at which the particle dies."),
