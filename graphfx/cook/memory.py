@@ -10,6 +10,8 @@ from pathlib import Path
 
 LEFT = 16 << 20
 """Bytes left for what else goes on while a picture is made: room for the threads, the next kernels."""
+SPARE = 0.02
+"""Part of what is allowed that is left as well, for what grows with the particles and is not counted one by one."""
 PIXEL = 16
 """Bytes of a pixel in a film."""
 MMAP_THRESHOLD = -3
@@ -29,7 +31,7 @@ def working_memory(allowed: int | None, pixels: int) -> float:
     film = PIXEL * pixels
     if allowed is not None:
         return_unused()
-        return allowed - resident() - film - LEFT
+        return allowed * (1 - SPARE) - resident() - film - LEFT
     return SHARE * available() - film
 
 
