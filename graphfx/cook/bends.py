@@ -3,23 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
-from graphfx.cook.particles import Bends, padded
+from graphfx.cook.particles import Bends
 from graphfx.motion.clock import Interval
 from graphfx.plan.knots import MOST_KNOTS, place_name, time_name
-
-
-def new_knots(count: int, real: Any) -> dict[str, tuple[np.ndarray, ...]]:
-    """Return room for the knots of `count` particles."""
-    zeros = padded(np.zeros(count), real)
-    made: dict[str, tuple[np.ndarray, ...]] = {"knots": (zeros,)}
-    for k in range(MOST_KNOTS):
-        made[time_name(k)] = (zeros.copy(),)
-        made[place_name(k)] = tuple(zeros.copy() for _ in range(3))
-    return made
 
 
 def bends_of(rows: np.ndarray, interval: Interval, knots: Mapping[str, tuple[np.ndarray, ...]], since: float) -> Bends:

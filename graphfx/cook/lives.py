@@ -9,19 +9,19 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.beginnings import NO_ROWS, NO_TIMES, Starts
-from graphfx.cook.bends import bends_of, new_knots
+from graphfx.cook.bends import bends_of
 from graphfx.cook.moments import pieces
 from graphfx.cook.nursery import Nursery
 from graphfx.cook.particles import Particles, padded, repeated
 from graphfx.cook.programs import Programs
-from graphfx.cook.rounds import MOST_ROUNDS, count_turns, new_rounds, put_back, taken, waiting
+from graphfx.cook.rounds import MOST_ROUNDS, count_turns, longest_first, new_room, put_back, taken
 from graphfx.cook.spawns import Occasion, Spawns
 from graphfx.errors import CookError, Problem
 from graphfx.motion.clock import Interval
 from graphfx.motion.events import DIES, HELD, REBORN
 from graphfx.plan.frame_program import FrameProgram
-from graphfx.plan.hits import HIT_TYPES
-from graphfx.plan.pacing import SHARE
+from graphfx.plan.pacing import FIRST_TURNS, SHARE
+from graphfx.plan.pacing import MOST_TURNS as MOST_STEPS
 from graphfx.plan.spawning import SpawnPlan
 
 MOST_TURNS = 10_000
@@ -94,6 +94,8 @@ class Lives:
         plan = particles.plan
         death = np.maximum(particles.death(rows) - interval.start, begin) if plan.mortal else np.full(len(rows), np.inf)
         ends = self._run(particles, interval, rows, begin, np.minimum(death, interval.length), begun)
+        if not ends.fate.any() and not (death <= interval.length).any():
+            return NOBODY, NOBODY
         held = ends.fate >= HELD
         dies = (ends.fate == DIES) | (ends.fate == HELD + DIES)
         natural = (ends.fate == 0) & (death <= interval.length)
@@ -130,29 +132,17 @@ class Lives:
         Hits on the way are `kept` for pictures.
         """
         made, real, count = particles.plan.own, self.programs.real, len(rows)
-        unmoved = Ends(np.zeros(count), end, begun, np.full(count, -1.0))
         if made is None:
-            return unmoved
-        zeros = padded(np.zeros(count), real)
-        by_place: dict[str, Any] = {
-            "begin": (padded(begin, real),),
-            "end": (padded(end, real),),
-            "unfinished": (padded(np.zeros(count), np.uint8),),
-            "fate": (zeros.copy(),),
-            "ended": (zeros.copy(),),
-            "begun": (padded(begun, real),),
-            "surface": (zeros.copy(),),
-        }
-        for name, type_ in HIT_TYPES.items():
-            by_place[f"hit.{name}"] = tuple(zeros.copy() for _ in range(3 if type_ == "vec3" else 1))
-        if "knots" in made.program.stores:
-            by_place |= new_knots(count, real)
-        if SHARE in made.program.stores:
-            by_place |= new_rounds(count, real)
+            return Ends(np.zeros(count), end, begun, np.full(count, -1.0))
+        by_place = new_room(made.program, count, real)
+        by_place |= {"begin": (padded(begin, real),), "end": (padded(end, real),)}
+        if "begun" in by_place:
+            by_place["begun"][0][:count] = begun
         self._run_rounds(made, particles, interval, rows, by_place, kept)
-        particles.unfinished += int(by_place["unfinished"][0][:count].sum())
-        if "fate" not in made.program.stores:
-            return unmoved
+        if "unfinished" in by_place:
+            particles.unfinished += int(by_place["unfinished"][0][:count].sum())
+        if "fate" not in by_place:
+            return Ends(np.zeros(count), end, begun, np.full(count, -1.0))
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
         told = [by_place[name][0][:count].astype(np.float64) for name in ("fate", "ended", "begun", "surface")]
         return Ends(told[0], told[1], told[2], told[3], hit)
@@ -161,23 +151,29 @@ class Lives:
         self, made: FrameProgram, particles: Particles, interval: Interval, rows: np.ndarray, by_place: dict[str, Any], kept: bool
     ) -> None:
         """Run a program, and again those who wait for another run, gathered with their like, until none waits."""
-        places, given = np.arange(len(rows)), by_place
+        store, given, going = particles.store, by_place, rows
         particles.carried += len(rows)
-        if "resting" in particles.store.columns:
-            particles.carried -= int(np.count_nonzero(particles.store.column("resting")[0][rows]))
+        if "resting" in store.columns:
+            particles.carried -= int(np.count_nonzero(store.column("resting")[0][rows]))
         for _ in range(MOST_ROUNDS):
-            self.programs.run(made, particles, interval, rows[places], by_place=given)
-            if kept and "knots" in made.program.stores:
-                particles.bends = particles.bends.joined(bends_of(rows[places], interval, given, particles.since))
-            if SHARE not in made.program.stores:
+            listed = None if len(going) == store.count and np.array_equal(going, np.arange(store.count)) else going
+            turns = FIRST_TURNS if given is by_place else MOST_STEPS
+            self.programs.run(made, particles, interval, listed, by_place=given, turns=turns)
+            if kept and "knots" in given:
+                particles.bends = particles.bends.joined(bends_of(going, interval, given, particles.since))
+            if "waiting" not in given:
                 return
-            count_turns(particles, given, len(places))
-            if given is not by_place:
+            count_turns(particles, given, len(going))
+            who = np.flatnonzero(given["waiting"][0][: len(going)])
+            if given is by_place:
+                places = who
+            else:
                 put_back(by_place, given, places)
-            places = waiting(places, given, particles.store.column(SHARE)[0][rows[places]])
+                places = places[who]
             if not len(places):
                 return
-            given = taken(by_place, places)
+            places = longest_first(places, store.column(SHARE)[0][rows[places]])
+            given, going = taken(by_place, places), rows[places]
         particles.failed += len(places)
 
     def _tell_hits(self, particles: Particles, interval: Interval, rows: np.ndarray, when: np.ndarray, ends: Ends) -> None:

@@ -15,6 +15,7 @@ from graphfx.motion.clock import Interval, cell_time, cuts_within
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.make import Plan
 from graphfx.plan.matrix_motion import find_matrices
+from graphfx.plan.pacing import ALLOWED, MOST_TURNS
 from graphfx.plan.values import find_step_values
 
 ENGINE_COLUMNS = {"age": "birth"}
@@ -50,10 +51,11 @@ class Programs:
         excluded: np.ndarray | None = None,
         by_place: Mapping[str, tuple[np.ndarray, ...]] | None = None,
         count: int | None = None,
+        turns: int = MOST_TURNS,
     ) -> np.ndarray:
         """Run a program over an interval, on all rows, the first `count`, or those listed; return the rows rejected.
 
-        Of `by_place` those arrays are taken that the program knows.
+        Of `by_place` those arrays are taken that the program knows. Particles with steps of their own take `turns` of them.
         """
         program, store = made.program, particles.store
         known = program.loads.keys() | program.stores.keys()
@@ -65,7 +67,7 @@ class Programs:
             arrays,
             listed,
             excluded,
-            self.uniforms(made, particles, interval),
+            self.uniforms(made, particles, interval, turns),
             by_place,
             interval.start,
         )
@@ -83,7 +85,7 @@ class Programs:
         found += [-1.0] * (motion.most_cuts - len(found))
         return {f"cut {number}": time for number, time in enumerate(found)}
 
-    def uniforms(self, made: FrameProgram, particles: Particles, interval: Interval) -> dict[int, Any]:
+    def uniforms(self, made: FrameProgram, particles: Particles, interval: Interval, turns: int = MOST_TURNS) -> dict[int, Any]:
         """Return the values of a program's uniforms over an interval."""
         substeps = self.plan.flat.time.substeps
         length = interval.length / substeps
@@ -96,6 +98,7 @@ class Programs:
             "frame start": interval.start,
             "frame end": interval.length,
             "frame": interval.frame,
+            ALLOWED: turns,
             "frame word": interval.frame & 0xFFFFFFFF,
         }
 

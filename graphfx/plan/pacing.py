@@ -11,6 +11,10 @@ from graphfx.program import Builder, Column, Operand, Uniform
 
 MOST_TURNS = 64
 """Steps that one run takes, refused ones too; who is not at the end then is gathered with its like for another run."""
+FIRST_TURNS = 16
+"""Steps that the first run of a frame takes, in which long and short ones lie side by side: who needs more leaves it early."""
+ALLOWED = "allowed turns"
+"""The number of steps that a run takes, as it is handed over."""
 SHARE = "step share"
 """The column that remembers how long a particle's steps are."""
 FINEST = {32: 2.0**-20, 64: 2.0**-40}
@@ -52,6 +56,11 @@ class Pacing:
         if self.most_contacts:
             going = builder.call(basic.both, going, builder.call(basic.is_less, self.contacts, self._most), name="going")
         return going
+
+    def has_turns(self, builder: Builder, allowed: Uniform) -> Column:
+        """Write who may take another step in this run."""
+        found: Column = builder.call(basic.is_less, self.turns, allowed, name="soon")
+        return found
 
     @property
     def _most(self) -> Uniform:

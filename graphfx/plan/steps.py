@@ -18,7 +18,7 @@ from graphfx.plan.knots import Knots
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
-from graphfx.plan.pacing import MOST_TURNS, Pacing
+from graphfx.plan.pacing import ALLOWED, MOST_TURNS, Pacing
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
 from graphfx.plan.shutter import Instant
@@ -219,8 +219,9 @@ class FrameWriter:
             going = turn.going(builder, here)
             inner = builder.loop(going, MOST_TURNS, "until the particle's end")
             turn.write(inner, k, here, cell)
-            inner.call(basic.both, *[turn.going(inner, here)] * 2, into=going)
-            builder.call(basic.either, pacing.waiting, going, into=pacing.waiting)
+            soon = pacing.has_turns(inner, moments.made.time(builder, ALLOWED))
+            inner.call(basic.both, turn.going(inner, here), soon, into=going)
+            builder.call(basic.either, pacing.waiting, turn.going(builder, here), into=pacing.waiting)
 
     def _fate(self, builder: Builder) -> Fate | None:
         if not (self.endings or self.hits.ends or self.vital or (self.motion.scheme.paced and self.settings)):

@@ -177,11 +177,15 @@ MOVING = {"position": STILL, "velocity": {"in_sphere": {"radius": 1}}}
 GRAVITY = {"type": "gravity"}
 NEAR = {"type": "attract", "strength": 10, "softening": 0.3}
 OTHER = {"type": "attract", "id": "other", "center": [1, 1, 0], "softening": 0.3}
+ORBITS: dict[str, Any] = {
+    "seconds": 10.25, "rate": orbit_rate, "truth": orbit_after, "attributes": ELEMENTS, "orbits": True,
+}  # fmt: skip
+TILTED = {"type": "vortex", "id": "tilted", "magnitude": 3, "center": [1, 0, 0], "axis": [0, 0.6, 0.8]}
 POINT = [{"type": "attract", "strength": ORBIT, "softening": 0}]
 
 PROBLEMS = [
-    Problem("Kepler, e in [0, 0.99], 10 1/4 periods", POINT, elliptic(0.99), 10.25, orbit_rate, orbit_after, ELEMENTS, orbits=True),
-    Problem("test particles about a star, e in [0, 0.3]", POINT, elliptic(0.3), 10.25, orbit_rate, orbit_after, ELEMENTS, orbits=True),
+    Problem("Kepler, e in [0, 0.99], 10 1/4 periods", POINT, elliptic(0.99), **ORBITS),
+    Problem("test particles about a star, e in [0, 0.3], 10 1/4 periods", POINT, elliptic(0.3), **ORBITS),
     Problem("two softened attractors, gravity", [GRAVITY, NEAR, {**OTHER, "strength": 5}], MOVING, 2, two_rate),
     Problem(
         "stiff spring 200 rad/s, attractor",
@@ -198,7 +202,7 @@ PROBLEMS = [
     Problem("damped fall", [GRAVITY, {"type": "damp", "damping": 2}], MOVING, 4, fall_rate, fall_after),
     Problem(
         "two vortices",
-        [{"type": "vortex", "magnitude": 3}, {"type": "vortex", "id": "b", "magnitude": 3, "center": [1, 0, 0], "axis": [0, 0.6, 0.8]}],
+        [{"type": "vortex", "magnitude": 3}, TILTED],
         {"position": STILL, "velocity": [0, 0, 0]}, 4, vortex_rate,
     ),
     Problem(

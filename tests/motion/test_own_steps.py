@@ -5,6 +5,7 @@ import pytest
 
 from graphfx.errors import GraphError
 from graphfx.motion import pacing
+from graphfx.plan.pacing import FIRST_TURNS
 
 from .bursts import burst, carried, ends, places
 
@@ -95,6 +96,37 @@ def test_mild_particles_do_not_pay_for_stiff_ones():
     mild = carried(burst(pull, 990, {"tolerance": 1e-6}, **far)).particles["some"]
     stiff = carried(burst(pull, 10, {"tolerance": 1e-6}, **close)).particles["some"]
     assert mild.turns == 990 * 24 and stiff.turns > 10 * 24 * 20
+
+
+def test_a_run_goes_on_with_those_alone_who_need_more_steps():
+    """Of a mixture only the particles near an attractor are gathered to go on: the first run takes few steps, and no other
+    is of particles that are far."""
+    effect = burst(
+        [{"type": "attract", "strength": 10, "softening": 0.01}],
+        1000,
+        {"tolerance": 1e-6, "frames": [0, 2]},
+        mass={"rand": [0, 1]},
+        position={"expr": "vec(0.1, 0, 0) if mass < 0.01 else vec(20, 0, 0)"},
+        velocity={"expr": "vec(0, 0, 10) if mass < 0.01 else vec(0, 0, 1)"},
+    )
+    simulation = effect.simulation()
+    runs: list[tuple[int, int]] = []
+    run = simulation.programs.run
+
+    def watched(made, particles, interval, listed=None, by_place=None, **given):
+        found = run(made, particles, interval, listed, by_place=by_place, **given)
+        if by_place is not None and "turns" in by_place:
+            count = particles.store.count if listed is None else len(listed)
+            runs.append((count, int(by_place["turns"][0][:count].max())))
+        return found
+
+    simulation.programs.run = watched
+    for _ in simulation.frames(1):
+        pass
+    near = int(np.count_nonzero(np.asarray(simulation.particles["some"].value("mass"))[..., :1000] < 0.01))
+    (first, few), *others = runs
+    assert 0 < near < 30 and first == 1000 and few == FIRST_TURNS
+    assert others and {count for count, _ in others} == {near}
 
 
 def test_what_cannot_be_carried_is_counted_and_stays_finite():
