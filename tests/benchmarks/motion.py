@@ -9,6 +9,8 @@ CPU time counts, by particle and simulated second. graphfx gives the states of a
 What finds graphfx's settings, once for a graph, is told beside. Aims: 10 times as fast as the best of SciPy on every problem,
 and faster than the paper's scheme on all but the loosest.
 
+Needs SciPy; REBOUND is left out where it is not installed.
+
     --problems WORD    those alone whose names contain it
     --page FILE        write the tables as a page, too
 """
@@ -42,6 +44,7 @@ PARTICLES, MANY, FEW, PATIENCE = 2048, 100_000, 24, 1.0
 """Particles of graphfx, of its longer run, and of the slow ones; CPU seconds after which a finer setting is not tried."""
 ROUNDS = 3
 TIGHTER = [10.0 ** (-k / 2) for k in range(4, 27)]
+ONE_STEP = 0.0
 MORE_STEPS = [1.5 * 2.0**k for k in range(18)]
 
 
@@ -169,7 +172,7 @@ def contenders(problem: Problem) -> list[Contender]:
         found += [
             Contender("REBOUND IAS15, each alone", rebound_run(problem, "ias15", False), loosest, "epsilon", 256),
             Contender("REBOUND IAS15, together", rebound_run(problem, "ias15", True), loosest, "epsilon", 256),
-            Contender("REBOUND WHFast, whole time", rebound_run(problem, "whfast", True), [0.01], "one step", PARTICLES),
+            Contender("REBOUND WHFast, whole time", rebound_run(problem, "whfast", True), [ONE_STEP], "one step", PARTICLES),
             Contender("REBOUND WHFast, each frame", rebound_run(problem, "whfast", True), [24.0], "steps a second", PARTICLES),
         ]
     return found
@@ -202,17 +205,21 @@ def measure(problem: Problem) -> list[Row]:
                 rows.append(Row(problem.name, tolerance, other.name, not_kept(other), math.nan, math.nan, math.nan, math.nan))
                 continue
             each = least[other.name] / other.count / problem.seconds
-            setting = f"{best[0]:.2g} {other.kind}" if best[0] < 1 else f"{best[0]:.0f} {other.kind}"
-            rows.append(Row(problem.name, tolerance, other.name, setting, best[1], best[2], each, each / own))
+            rows.append(Row(problem.name, tolerance, other.name, setting_text(best[0], other.kind), best[1], best[2], each, each / own))
         for row in rows[-len(found) - 1 :]:
             print(row_text(row), flush=True)
     return rows
 
 
+def setting_text(setting: float, kind: str) -> str:
+    """Return a setting as words."""
+    return kind if setting == ONE_STEP else f"{setting:.2g} {kind}" if setting < 1 else f"{setting:,.0f} {kind}"
+
+
 def not_kept(other: Contender) -> str:
     """Say how far a contender that keeps no tolerance was tried."""
     setting, error, _, _ = other.tried[-1]
-    return f"not kept: {error:.1e} m at {setting:.2g} {other.kind}" + (", given up" if other.given_up else "")
+    return f"not kept: {error:.1e} m at {setting_text(setting, other.kind)}" + (", given up" if other.given_up else "")
 
 
 def main() -> None:

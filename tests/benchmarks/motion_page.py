@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 
+import graphfx
+
 
 @dataclass(frozen=True)
 class Row:
@@ -65,8 +67,8 @@ def processor() -> str:
 
 def versions() -> str:
     """Return the versions of what was measured."""
-    found = [f"Python {platform.python_version()}"]
-    for name in ("graphfx", "numpy", "numba", "scipy", "rebound"):
+    found = [f"Python {platform.python_version()}", f"graphfx {graphfx.__version__}"]
+    for name in ("numpy", "numba", "scipy", "rebound"):
         try:
             found.append(f"{name} {importlib.metadata.version(name)}")
         except importlib.metadata.PackageNotFoundError:
@@ -105,7 +107,8 @@ def page(rows: list[Row], shares: list[str]) -> str:
         "position which 95 % of particles do not exceed at the end [m]; evaluations are those of the forces, by particle, for",
         "the whole time; µs is CPU time by particle and simulated second, and what follows its ratio to graphfx's. The others",
         "have the cheapest setting that was found to keep the tolerance, and give the last states alone; graphfx gives those of",
-        "24 frames a second, and chooses its method for itself, once for a graph, in the seconds told.",
+        "24 frames a second and chooses for itself, once for a graph, in the seconds told. A setting is",
+        "given up when its particles (those of graphfx, or fewer of them) took more than a second of CPU time.",
         "",
         f"{datetime.date.today()}; {processor()}; {versions()}; load {os.getloadavg()[0]:.1f} at the end (other work beside).",
         "",
