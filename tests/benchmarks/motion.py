@@ -205,7 +205,8 @@ def measure(problem: Problem) -> list[Row]:
                 rows.append(Row(problem.name, tolerance, other.name, not_kept(other), math.nan, math.nan, math.nan, math.nan))
                 continue
             each = least[other.name] / other.count / problem.seconds
-            rows.append(Row(problem.name, tolerance, other.name, setting_text(best[0], other.kind), best[1], best[2], each, each / own))
+            setting = setting_text(best[0], other.kind)
+            rows.append(Row(problem.name, tolerance, other.name, setting, best[1], best[2], each, each / own))
         for row in rows[-len(found) - 1 :]:
             print(row_text(row), flush=True)
     return rows
