@@ -114,6 +114,24 @@ def test_a_wall_is_met_while_the_ball_settles():
         assert abs(velocity[-1, 0] + 1.5) <= 1e-13
 
 
+def test_a_wall_is_met_among_the_hops():
+    """Balls that hop ever lower turn back at a wall that stands anywhere in their way."""
+    wall = plane(1, id="wall", normal=[-1, 0, 0], point=[1, 0, 0])
+    start = np.stack([np.linspace(0.3, 0.9, 40), np.full(40, 1e-3), np.zeros(40)], 1)
+    position, velocity = carried([GRAVITY, plane(0.9), wall], start, (2, 0, 0), frames=12)
+    np.testing.assert_allclose(position[:, 0], 1 - np.abs(1 - (start[:, 0] + 1)), rtol=0, atol=1e-12)
+    assert np.abs(np.abs(velocity[:, 0]) - 2).max() <= 1e-12
+
+
+def test_hops_on_a_ball_are_no_series():
+    """On a small ball, which falls away under who hops on it, long steps and short ones lead to the same places."""
+    ball = {"type": "bounce_sphere", "sphere_radius": 0.05, "resilience": 0.6, "friction": 0.5}
+    rng = np.random.default_rng(8)
+    start = np.stack([*rng.uniform(-0.02, 0.02, (2, 50)), np.full(50, 0.06)], 1)[:, [0, 2, 1]]
+    coarse, fine = (carried([GRAVITY, ball], start, (0.1, 0, 0), frames=12, substeps=n)[0] for n in (1, 8))
+    assert np.percentile(np.abs(coarse - fine).max(axis=1), 90) <= 1e-6
+
+
 @pytest.mark.parametrize("ops", [[{"type": "damp", "damping": 3}], [{"type": "spiral", "speed": 2}]])
 def test_settling_under_other_motion(ops):
     """Where acceleration changes along the way a ball comes to rest at the same place for long and for short steps."""
