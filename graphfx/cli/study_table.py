@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from graphfx.study.study import Result, Study
 
-WIDTH = 150
+WIDTH = 160
 """Columns that the whole table takes; where the terminal has fewer, less is told."""
 HEADS = ("setting", "p95 [m]", "median [m]", "RMS [m]", "max [m]", "over", "failed", "evals/frame", "time [ms]", "quartiles",
          "x sims", "order")

@@ -13,7 +13,7 @@ SIGNS = {"finite": "&middot;", "infinite": "&infin;", "failed": "!", "refused": 
 ORDER = ("bug", "infinite", "failed", "not_tried", "refused", "finite")
 """Outcomes, the worse first."""
 TOLD = 40
-"""Runs of one outcome that are told one by one."""
+"""Combinations of one outcome that are told one by one."""
 FIELDS = {
     "graphfx_stability": "the version of this form",
     "steps": "lengths of a step that were tried [s]",
@@ -70,11 +70,23 @@ def lines(found: Stability) -> Iterator[str]:
     for name, why in found.left_out.items():
         yield f"left out: {name}: {why}"
     for outcome in ORDER[:-1]:
-        cases = [case for case in found.cases if case.outcome == outcome]
-        for case in cases[:TOLD]:
-            yield f"{NAMES[outcome]}: {case.what}{f': {case.message}' if case.message else ''}"
-        if len(cases) > TOLD:
-            yield f"{NAMES[outcome]}: and {len(cases) - TOLD:,} more"
+        alike: dict[tuple[str, str], list[Case]] = {}
+        for case in found.cases:
+            if case.outcome == outcome:
+                operators = " and ".join(f"{each.name} ({each.label})" for each in case.operators)
+                alike.setdefault((operators, case.message), []).append(case)
+        for (operators, message), cases in list(alike.items())[:TOLD]:
+            yield f"{NAMES[outcome]}: {operators}: {runs_of(cases)}{f': {message}' if message else ''}"
+        if len(alike) > TOLD:
+            yield f"{NAMES[outcome]}: and {len(alike) - TOLD:,} more"
+
+
+def runs_of(cases: list[Case]) -> str:
+    """Return what methods, precisions and steps some runs had: `strang, 64 bits, steps of 1000 and 1e+06 s`."""
+    steps: dict[tuple[str, int], list[str]] = {}
+    for case in cases:
+        steps.setdefault((case.method, case.precision), []).append(f"{case.step:.3g}")
+    return "; ".join(f"{method}, {bits} bits, steps of {' and '.join(found)} s" for (method, bits), found in steps.items())
 
 
 _STYLE = """

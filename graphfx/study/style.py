@@ -46,7 +46,7 @@ figure { margin: 0; } figcaption { font-weight: 600; margin: 0 0 6px; }
 .ring { fill: none; stroke: var(--ink); stroke-width: 1.6; }
 .line.own { color: var(--ink); } .line.best { color: var(--good); } .line.sims { color: var(--f6); }
 .wide { overflow-x: auto; } table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
-th, td { padding: 5px 10px; text-align: right; white-space: nowrap; } th:first-child, td:first-child { text-align: left; }
+th, td { padding: 5px 8px; text-align: right; white-space: nowrap; } th:first-child, td:first-child { text-align: left; }
 thead th { position: sticky; top: 0; background: var(--card); color: var(--soft); font-weight: 500;
   border-bottom: 1px solid var(--rule); }
 tbody tr:hover { background: var(--minor); } tbody.family tr:first-child td { border-top: 1px solid var(--rule); }

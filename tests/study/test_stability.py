@@ -132,3 +132,12 @@ def test_ctrl_c_keeps_what_is_done():
 
     found = stability(LIBRARY, stop, every=800)
     assert found.stopped and len(found.cases) > 0 and stability_data(found)["stopped"] is True
+
+
+def test_runs_alike_are_told_together():
+    """Runs of the same operators with the same outcome stand in one line, by method and precision."""
+    fast = (defaults("vortex"),)
+    cases = [Case(fast, "strang", bits, step, "infinite") for bits in (32, 64) for step in (1.0, 1e3)]
+    told = list(lines(Stability(cases)))
+    assert told[1:] == ["grows beyond the numbers: vortex (defaults): strang, 32 bits, steps of 1 and 1e+03 s; "
+                        "strang, 64 bits, steps of 1 and 1e+03 s"]
