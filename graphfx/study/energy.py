@@ -15,7 +15,7 @@ import numpy as np
 
 from graphfx.cook.matching import keys_of, matched
 from graphfx.cook.trial import States, states_of
-from graphfx.study.fields import Field
+from graphfx.study.fields import Field, as_declared
 
 SYMMETRIC = 1e-4
 """How unlike its transpose a matrix of derivatives may be, as a share of its size: differences are no better."""
@@ -32,7 +32,7 @@ def is_conserved(fields: list[Field]) -> bool:
     moved = {"position", "velocity"} & set(plan.holder.changing)
     if moved or not particles.store.count or any(id(mover) not in known for mover in acting):
         return False
-    if not all(each.mover.writes_velocity and each.mover.role != "flow" and each.mover.time_free for each in fields):
+    if not all(each.mover.writes_velocity and as_declared(each.mover).role != "flow" and each.mover.time_free for each in fields):
         return False
     for each in fields:
         by_place, by_speed = each.derivatives("position"), each.derivatives("velocity")

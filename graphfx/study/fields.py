@@ -18,6 +18,7 @@ from graphfx.plan.make import EmitterPlan, Plan
 from graphfx.plan.moment import Constants, Moments
 from graphfx.plan.movers import Mover, linear_form
 from graphfx.plan.setting import as_column
+from graphfx.plan.values import node_function
 from graphfx.program import Builder, Column, Uniform
 
 ROLES = ("linear", "acceleration", "velocity", "flow")
@@ -39,7 +40,7 @@ def rate_program(plan: Plan, emitter: EmitterPlan, mover: Mover) -> FrameProgram
     moment = moments.whole_step(builder, 0, state)
     result = as_column(builder, ZERO, "vec3", "rate", always=True)
     inside = motion.under_conditions(mover, moment)
-    acting = linear_form(mover) or mover
+    acting = linear_form(mover) or as_declared(mover)
     if acting.role != "flow":
         found = inside.call(acting.function, *motion.arguments(acting, moment, state), name="found")
         inside.call(basic.copy_vector, found, into=result)
@@ -52,6 +53,14 @@ def rate_program(plan: Plan, emitter: EmitterPlan, mover: Mover) -> FrameProgram
         inside.call(basic.advance, ZERO, change, Uniform("per short", "float", 1 / SHORT), into=result)
     builder.store("rate", result)
     return made
+
+
+def as_declared(mover: Mover) -> Mover:
+    """Return an operator that runs as the exact flow of its acceleration as that acceleration; others as they are."""
+    declared = mover.node.node_type
+    if mover.role != "flow" or declared.role != "acceleration":
+        return mover
+    return Mover(mover.node, node_function(declared), declared.arguments, "acceleration")
 
 
 @dataclass
