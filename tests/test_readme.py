@@ -28,7 +28,7 @@ def told_commands() -> list[tuple[str, str]]:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the README's graph, and with a `graphfx` that is this one."""
     home = tmp_path_factory.mktemp("readme")
-    for name, text in zip(("fountain", "fireworks", "globe", "swirls"), blocks("json"), strict=True):
+    for name, text in zip(("fountain", "fireworks", "stars", "globe", "swirls"), blocks("json"), strict=True):
         (home / f"{name}.json").write_text(text)
     for name in ("graphfx", "pytest"):
         (home / name).write_text(f'#!/bin/sh\nexec "{sys.executable}" -m {name} "$@"\n')
