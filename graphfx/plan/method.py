@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from graphfx.errors import GraphError, Problem
 from graphfx.graph.flat import FlatGraph, TimeSettings
 from graphfx.motion.clock import most_cells
-from graphfx.plan.movers import INNER_ROLES, Mover
+from graphfx.plan.movers import INNER_ROLES, Mover, base_of
 from graphfx.plan.scheme import COUNTS, SIMPLE, Scheme
 
 LINEAR_ROLES = ("linear", "noise")
@@ -55,7 +55,7 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Ch
     if asked == "rk45":
         return _runge_kutta(inner, flat)
     parts = [mover.node.node_type.name for mover in movers if mover.role != "surface"]
-    if not parts or (drifts and not _has_role(movers, *LINEAR_ROLES)):
+    if not parts or (drifts and not _has_role(movers, *LINEAR_ROLES) and base_of(inner) is None):
         parts.insert(0, "free flight")
     names = ", ".join(parts)
     if not inner:
@@ -72,7 +72,9 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Ch
             Problem(f"there is no exact solution for {names} together; choose 'auto' or 'adaptive'", path="time.method")
         )
     order_one = _of_order_one(movers)
-    why = f"{_why_composed(inner)} ({names})"
+    base = base_of(inner) if drifts else None
+    around = f", around the exact orbit about {base.node.path}" if base is not None else ""
+    why = f"{_why_composed(inner)} ({names}){around}"
     if asked == "adaptive":
         time = flat.time
         reason = f"{why}: order {time.order} by extrapolation, steps of each particle's own, {time.tolerance:g} m a second"

@@ -20,7 +20,7 @@ from graphfx.motion import basic, runge_kutta
 from graphfx.plan.halfway import half_way, operands_half_way, write_linear
 from graphfx.plan.linear_motion import Coefficients, LinearMotion, write_paper_step, write_without_drift
 from graphfx.plan.moment import Moment, State
-from graphfx.plan.movers import INNER_ROLES, Mover, linear_form, mover_of
+from graphfx.plan.movers import INNER_ROLES, Mover, base_of, linear_form, mover_of
 from graphfx.plan.rates import Rate, depends_on_time, rate_of
 from graphfx.plan.rounding import settle
 from graphfx.plan.runge_kutta import write_runge_kutta
@@ -196,9 +196,7 @@ class Motion:
     @property
     def base(self) -> Mover | None:
         """Return the acceleration around whose exact flow all else is composed: one that acts on all, at all times."""
-        found = (mover for mover in self.of("acceleration") if mover.whole is not None)
-        always = (mover for mover in found if mover.node.during is None and mover.node.only is None)
-        return next(always, None) if self.method in ("strang", "adaptive") and self.has_velocity else None
+        return base_of(self.of("acceleration")) if self.method in ("strang", "adaptive") and self.has_velocity else None
 
     def _drift(self, moment: Moment, state: State, coefficients: Coefficients, cell: int) -> Callable[[Operand], None]:
         """Return what writes how velocities carry particles: on the base's exact flow, or with all that is linear."""

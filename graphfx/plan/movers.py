@@ -95,6 +95,12 @@ class Mover:
         return any(name in names_in(value) for value in self.node.arguments.values())
 
 
+def base_of(movers: list[Mover]) -> Mover | None:
+    """Return the first acceleration with an exact flow that acts on all, at all times: all else is composed around that."""
+    whole = (mover for mover in movers if mover.whole is not None)
+    return next((mover for mover in whole if mover.node.during is None and mover.node.only is None), None)
+
+
 def linear_form(mover: Mover) -> Mover | None:
     """Return a flow as the rate of change that it has in its linear form, if it has one."""
     if mover.role != "flow" or mover.node.node_type.linear is None:
