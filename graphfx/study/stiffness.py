@@ -81,7 +81,8 @@ class Scene:
         self.fields = fields_of(simulation)
         every = [(path, each) for path, several in self.fields.items() for each in several]
         self.reached = [Stiffness(path, each.mover.node.path, each.mover.node.node_type.name,
-                                  each.mover.role in ("linear", "flow")) for path, each in every]
+                                  each.mover.role in ("linear", "flow") or each.mover is each.particles.plan.motion.base)
+                        for path, each in every]
         wanted = set(spread_frames(range(self.flat.time.first, self.last + 1), FRAMES))
         with np.errstate(all="ignore"):
             for frame in simulation.frames(self.last):

@@ -30,6 +30,8 @@ PARTICLES, FRAMES, SECONDS = 1000, 24, 60.0
 MOST_REPEATS = 5
 DEAREST = 0.1
 """The share of a study's time that no single run may be expected to take."""
+MORE = 1.1
+"""What evaluations must grow by for an error that does not shrink to count as the least there is."""
 BETTER = 0.9
 """What an error must fall to, over two smaller tolerances, for still smaller ones to be tried."""
 BASELINE = "sims"
@@ -187,8 +189,8 @@ class Maker:
         if last.evaluations > before.evaluations and last.seconds[0] ** 2 / before.seconds[0] > DEAREST * self.seconds:
             study.left_out.append((what, f"a run takes {last.seconds[0]:.1f} s already; --seconds allows more"))
             return True
-        if len(found) > 2 and last.errors.p95 > BETTER * found[-3].errors.p95:
-            study.left_out.append((what, "two smaller tolerances before gave no smaller error"))
+        if len(found) > 2 and last.evaluations > MORE * found[-3].evaluations and last.errors.p95 > BETTER * found[-3].errors.p95:
+            study.left_out.append((what, "two smaller tolerances before took more work and gave no smaller error"))
             return True
         return False
 

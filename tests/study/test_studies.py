@@ -11,6 +11,7 @@ import pytest
 from graphfx.cook.trial import Trials
 from graphfx.study.candidates import FAMILIES, Candidate, Family, candidates
 from graphfx.study.data import FIELDS, paths_in, study_data
+from graphfx.study.errors import Errors
 from graphfx.study.films import picture_errors
 from graphfx.study.recommend import advice, compare_pictures
 from graphfx.study.reference import Reference, references, truth_of
@@ -177,3 +178,19 @@ def test_pictures_are_compared_where_that_is_asked_for():
     exact, elsewhere = picture_errors(flat, 6, times)
     assert exact.psnr > 60 and elsewhere.psnr < 40
     assert elsewhere.psnr == pytest.approx(-20 * np.log10(elsewhere.rms))
+
+
+@pytest.mark.parametrize("work, errors, stops", [
+    ((3, 3, 3), (1e-3, 1e-3, 1e-3), False),
+    ((3, 6, 9), (1e-6, 1e-6, 1e-6), True),
+    ((3, 6, 9), (1e-3, 1e-4, 1e-5), False),
+])
+def test_a_family_ends_where_work_no_longer_helps(work, errors, stops):
+    """Smaller tolerances are left out where two took more work for no less error; not where none has been asked for yet."""
+    family = next(each for each in FAMILIES if len(each.tolerances) > 4)
+    study = Study(free_fall(), [1])
+    for number, (evaluations, error) in enumerate(zip(work, errors, strict=True)):
+        candidate = Candidate(family, 64, 1, family.tolerances[number])
+        study.results.append(Result(candidate, errors=Errors(p95=error), evaluations=evaluations, seconds=[0.1]))
+    assert Maker(study.flat)._says_no_more(study, study.results[-1].candidate) is stops
+    assert bool(study.left_out) is stops
