@@ -1,8 +1,8 @@
 """Study a graph: what each method makes of it, and at what cost, against what two references agree on.
 
 All settings run over the same sample of particles, in one process and on one thread. The cheapest setting of each family
-goes first, so that when time runs out the dearest are left out. Then all run again, in turn, as often as time allows: what
-disturbs the machine disturbs all of them alike.
+goes first, so that when time runs out the dearest are left out. Then they run again, in turn, the quickest of them if there is
+not time for all: what disturbs the machine disturbs all of them alike.
 """
 
 from __future__ import annotations
@@ -237,17 +237,16 @@ class Maker:
                                  for path in study.conserved}
 
     def _repeat(self, study: Study, begun: float) -> None:
-        """Run all settings again, in turn, for their run times: whole rounds, as long as there is time for another."""
-        took = sum(result.seconds[0] for result, _ in self.trials)
+        """Run the settings again, in turn, for their run times: in what time is left, the quickest of them."""
+        allowed = (self.seconds - (time.process_time() - begun)) / max(self.repeats - 1, 1)
+        quickest = sorted(self.trials, key=lambda each: each[0].seconds[0])
+        sums = np.cumsum([result.seconds[0] for result, _ in quickest])
+        again = {id(result) for (result, _), sum_ in zip(quickest, sums, strict=True) if sum_ <= allowed}
         for number in range(2, self.repeats + 1):
-            if time.process_time() - begun + took > self.seconds:
-                return
-            found = []
             for result, trials in self.trials:
-                self.tell(f"run times, round {number}: {result.candidate.name}", number / self.repeats)
-                found.append(trials.run(study.frames).seconds)
-            for (result, _), seconds in zip(self.trials, found, strict=True):
-                result.seconds.append(seconds)
+                if id(result) in again:
+                    self.tell(f"run times, round {number}: {result.candidate.name}", number / self.repeats)
+                    result.seconds.append(trials.run(study.frames).seconds)
 
 
 def by_rank(all_of_them: list[Candidate]) -> list[Candidate]:

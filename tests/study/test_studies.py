@@ -68,7 +68,7 @@ def test_run_times_are_told_as_ratios_to_sims(vortices):
     """`sims` with one step has the ratio 1 in every round."""
     baseline = vortices.of("sims", 64)[0]
     assert baseline.candidate.steps == 1 and set(vortices.ratios(baseline)) == {1.0}
-    assert all(len(each.seconds) == len(baseline.seconds) for each in vortices.results if not each.message)
+    assert all(len(each.seconds) <= len(baseline.seconds) for each in vortices.results if not each.message)
 
 
 def test_every_field_is_documented(vortices):
