@@ -1,15 +1,16 @@
 """Choose how motion is computed by trying it on some of a graph's particles: the cheapest setting that is accurate enough.
 
 A setting is accurate enough if 95 % of the particles tried are, at frames spread over the whole graph, within the
-graph's tolerance of where the method `adaptive` of order 8 puts them at a thousandth of it. What it costs is counted in
-evaluations of the forces, not in seconds. So the choice is a function of the graph alone.
+graph's tolerance of where the method `adaptive` of order 8 puts them at a thousandth of it; in 64 bits, where the tolerance
+is not far above what 32 bits can tell. What it costs is counted in evaluations of the forces, not in seconds. So the choice
+is a function of the graph alone.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -32,6 +33,8 @@ SAFETY = 0.5
 TRIES = 6
 """How often a tolerance is made smaller, or larger, until the error is right."""
 MOST_STEPS = 64
+ROUNDING = 2.0**-17
+"""The tolerance, as a share of the greatest coordinate, from which on down rounding in 32 bits is looked at: 128 last digits."""
 LOOSEST = 1e4
 """The greatest local tolerance that is tried, as a multiple of the graph's."""
 
@@ -88,6 +91,7 @@ class Pilot:
     paths: list[str]
     sample: Sample
     frames: list[int]
+    first: Trial = field(init=False)
     reference: Trial = field(init=False)
     known: dict[str, list[Found]] = field(default_factory=dict)
 
@@ -97,18 +101,28 @@ class Pilot:
         frames = spread_frames(range(flat.time.first, flat.time.last + 1), FRAMES)
         made = cls(flat, paths, sample_of(flat, PARTICLES, frames[-1]), frames)
         made.known = {path: [] for path in paths}
-        made.reference = made.run(dict.fromkeys(paths, adaptive(8, flat.time.tolerance * FINER)))
+        made.first = made.run(dict.fromkeys(paths, strang(1)))
+        best = dict.fromkeys(paths, adaptive(8, flat.time.tolerance * FINER))
+        made.reference = made.run(best, 64 if made.is_near_rounding else flat.time.precision)
         return made
 
-    def run(self, settings: Mapping[str, Setting]) -> Trial:
+    @property
+    def is_near_rounding(self) -> bool:
+        """Return whether what 32 bits can tell is not far below the tolerance."""
+        states = [states for frames in self.first.states.values() for states in frames.values()]
+        greatest = max((float(np.nanmax(np.abs(each.position), initial=0.0)) for each in states), default=0.0)
+        return self.flat.time.precision == 32 and self.flat.time.tolerance < greatest * ROUNDING
+
+    def run(self, settings: Mapping[str, Setting], precision: int | None = None) -> Trial:
         """Carry the particles under a setting for each source."""
+        flat = replace(self.flat, time=replace(self.flat.time, precision=precision or self.flat.time.precision))
         choices = {path: Choice(setting.method, setting.name, setting.scheme) for path, setting in settings.items()}
-        return Trials(self.flat, self.sample, choices=choices).run(self.frames)
+        return Trials(flat, self.sample, choices=choices).run(self.frames)
 
     def choices(self) -> dict[str, Choice]:
         """Return what is chosen for each source."""
         wanted = self.flat.time.tolerance * SAFETY
-        self.attempt(dict.fromkeys(self.paths, strang(1)))
+        self.note(dict.fromkeys(self.paths, strang(1)), self.first)
         open_ = [path for path in self.paths if self.known[path][0].error > wanted]
         for order in (6, 4, 8) if open_ else ():
             self.calibrate(open_, order, wanted)
@@ -118,13 +132,16 @@ class Pilot:
     def attempt(self, settings: Mapping[str, Setting]) -> None:
         """Try a setting for some sources; the others go on with the first that was tried."""
         if settings:
-            trial = self.run({path: settings.get(path, strang(1)) for path in self.paths})
-            for path, setting in settings.items():
-                errors = errors_of(self.reference.states[path], trial.states[path])
-                error = quantile(errors, 0.95) if len(errors) else 0.0
-                error = math.inf if trial.failures.get(path) else error
-                over = float(np.mean(errors > self.flat.time.tolerance)) if len(errors) else 0.0
-                self.known[path].append(Found(setting, error, over, trial.work[path]))
+            self.note(settings, self.run({path: settings.get(path, strang(1)) for path in self.paths}))
+
+    def note(self, settings: Mapping[str, Setting], trial: Trial) -> None:
+        """Keep what settings came to in a trial."""
+        for path, setting in settings.items():
+            errors = errors_of(self.reference.states[path], trial.states[path])
+            error = quantile(errors, 0.95) if len(errors) else 0.0
+            error = math.inf if trial.failures.get(path) else error
+            over = float(np.mean(errors > self.flat.time.tolerance)) if len(errors) else 0.0
+            self.known[path].append(Found(setting, error, over, trial.work[path]))
 
     def calibrate(self, paths: list[str], order: int, wanted: float) -> None:
         """Try an order with tolerances that bring the error just below what is wanted."""
@@ -168,6 +185,7 @@ class Pilot:
         )
         if not enough:
             told += "; none tried was accurate enough, see `graphfx study`"
+            told += ', and "precision": 64, as 32 bits tell no more of places so far out' if self.is_near_rounding else ""
         return Choice(best.setting.method, f"{best.setting.name}; {told}", best.setting.scheme)
 
 

@@ -91,3 +91,11 @@ def test_the_plan_of_an_effect_is_the_tried_one():
     flat = flat_of("attractors", 1e-6)
     assert Effect(flat).plan.emitters["sky"].method == "adaptive"
     assert make_plan(flat).emitters["sky"].motion.scheme.counts == (1,)
+
+
+def test_what_32_bits_cannot_tell_is_said():
+    """A tolerance that 32 bits cannot keep is not promised: the error told is that of rounding, and the way out is named."""
+    chosen = planned(flat_of("attractors", 1e-9, precision=32)).emitters["sky"]
+    told = re.search(r"95 % of 256 tried are within (\S+) m", chosen.reason)
+    assert 1e-8 < float(told[1]) < 1e-3
+    assert chosen.reason.endswith('and "precision": 64, as 32 bits tell no more of places so far out')
