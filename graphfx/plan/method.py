@@ -10,6 +10,8 @@ from graphfx.motion.clock import most_cells
 from graphfx.plan.movers import INNER_ROLES, Mover, base_of
 from graphfx.plan.scheme import COUNTS, SIMPLE, Scheme
 
+MOST_CELLS = 240
+"""Cells of noise in a step: it is written once for each."""
 LINEAR_ROLES = ("linear", "noise")
 
 
@@ -39,7 +41,15 @@ def cells_met(movers: list[Mover], time: TimeSettings, method: str) -> int:
     noise = [mover for mover in _acting(movers) if mover.role == "noise"]
     if not noise or (method == "sims" and not any(mover.is_brownian for mover in noise)):
         return 1
-    return most_cells(time.fps, time.preroll, time.substeps)
+    cells = most_cells(time.fps, time.preroll, time.substeps)
+    if cells > MOST_CELLS:
+        node = noise[0].node
+        message = (
+            f"its noise is drawn anew every 1/24 s, {cells:,} times in a step of this graph, and {MOST_CELLS} are the most; "
+            "take more frames a second, or more substeps"
+        )
+        raise GraphError(Problem(message, node.location, f"nodes.{node.path}"))
+    return cells
 
 
 def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Choice | None = None) -> Choice:

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from graphfx.errors import GraphError
 from graphfx.math import on_unit_sphere
 from graphfx.math.random import counter_of, key_of, philox4x32, uniform
 from graphfx.motion.clock import Clock, cell_time, most_cells
 
+from . import one_particle
 from .one_particle import path
 from .test_linear import array
 from .test_machine import effect_of
@@ -154,3 +156,14 @@ def test_whole_steps_in_a_cell_are_not_split():
     assert [most_cells(*given) for given in ((24, 0, 1), (24, 0, 8), (12, 0, 2), (30, 0, 1), (1, 0, 1), (24, 0.1, 1))] == [
         1, 1, 1, 2, 24, 2,
     ]  # fmt: skip
+
+
+def test_too_many_cells_in_a_step_are_refused():
+    """A step of thousands of cells of noise is refused at its operator, with what to do; one of 240 is not."""
+    with pytest.raises(GraphError) as caught:
+        one_particle.effect_of([{"type": "random_acceleration"}], (0, 0, 0), fps=0.01).plan  # noqa: B018
+    assert caught.value.problems[0].message == (
+        "its noise is drawn anew every 1/24 s, 2,400 times in a step of this graph, and 240 are the most; "
+        "take more frames a second, or more substeps"
+    )
+    assert one_particle.effect_of([{"type": "random_acceleration"}], (0, 0, 0), fps=0.1).plan.emitters
