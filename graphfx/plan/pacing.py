@@ -11,7 +11,7 @@ from graphfx.program import Builder, Column, Operand, Uniform
 
 MOST_TURNS = 64
 """Steps that one run takes, refused ones too; who is not at the end then is gathered with its like for another run."""
-FIRST_TURNS = 16
+FIRST_TURNS = 8
 """Steps that the first run of a frame takes, in which long and short ones lie side by side: who needs more leaves it early."""
 ALLOWED = "allowed turns"
 """The number of steps that a run takes, as it is handed over."""
