@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from graphfx.math import Vec3, maximum, minimum
 from graphfx.program import Bundle
 
 MATRIX = Bundle("matrix")
@@ -24,6 +25,8 @@ TERMS = 6
 NUMERATOR = (64764752532480000, 32382376266240000, 7771770303897600, 1187353796428800, 129060195264000, 10559470521600,
              670442572800, 33522128640, 1323241920, 40840800, 960960, 16380, 182, 1)  # fmt: skip
 """Coefficients of the Pade approximant of order 13, exact to 2^-53 for |A| up to 5.37. [Higham 2005, table 2.3]"""
+MOST_GROWTH = 68.0
+"""The logarithm of the greatest growth in a step: 3e29, which 32 bits can hold."""
 LARGEST = 5.371920351148152
 
 
@@ -50,8 +53,11 @@ def exponential(matrix: np.ndarray) -> np.ndarray:
 def propagators(matrix: np.ndarray, time: float) -> np.ndarray:
     """Return exp(A h) and F(h) of a matrix of 6 x 6, side by side: 6 x 12.
 
-    They are the upper half of exp([[A, 1], [0, 0]] h), with places in units in which A is balanced.
+    They are the upper half of exp([[A, 1], [0, 0]] h), with places in units in which A is balanced. A step in which
+    something would grow by more than e^68 counts as so much shorter.
     """
+    growth = float(np.linalg.eigvals(matrix).real.max()) * time if np.isfinite(matrix).all() else 0.0
+    time = time * (MOST_GROWTH / growth) if growth > MOST_GROWTH else time
     pull, drift = np.abs(matrix[3:, :3]).max(), np.abs(matrix[:3, 3:]).max()
     unit = 2.0 ** np.round(np.log2(pull / drift) / 2) if pull > 0 and drift > 0 else 1.0
     scale = np.repeat([unit, 1.0, unit, 1.0], 3)
@@ -64,8 +70,14 @@ def propagators(matrix: np.ndarray, time: float) -> np.ndarray:
 
 @MATRIX.function("vec3 vec3 vec3 vec3 vec3 vec3 vec3 vec3", "vec3")
 def product(first: Any, second: Any, ax: Any, ay: Any, az: Any, bx: Any, by: Any, bz: Any) -> Any:
-    """(A B) (first, second), a matrix of 3 x 6 given by its columns."""
-    return (ax * first.x + ay * first.y + az * first.z) + (bx * second.x + by * second.y + bz * second.z)
+    """(A B) (first, second), a matrix of 3 x 6 given by its columns; no component is beyond 1e36."""
+    found = (ax * first.x + ay * first.y + az * first.z) + (bx * second.x + by * second.y + bz * second.z)
+    return Vec3(within(found.x), within(found.y), within(found.z))
+
+
+def within(value: Any) -> Any:
+    """A number held within 1e36."""
+    return minimum(maximum(value, -1e36), 1e36)
 
 
 @MATRIX.function("float float float", "bool")
