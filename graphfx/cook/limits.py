@@ -18,6 +18,8 @@ BASE = 200_000_000
 """Bytes that graphfx takes without any particle: the interpreter, Numba, the kernels."""
 SURVEYED = 2
 """Bytes of a particle, beside its own, while a picture is made patch by patch: the rows of tiles that it reaches."""
+LIVED = 12
+"""Bytes of a particle that is born while a shutter is open, beside its own: for how much of it it is seen, and when."""
 COMPRESSED = 0.25
 """About what is left of a picture of particles when it is compressed."""
 
@@ -101,9 +103,20 @@ def _bytes_each(emitter: EmitterPlan) -> int:
     return sum({"float": 4, "vec3": 12, "mask": 1}.get(type_, 8) for type_ in emitter.attributes.columns.values())
 
 
+def _born_in_shutter(emitter: EmitterPlan, plan: Plan) -> float:
+    """Return about how many particles of a rate are born while a shutter is open."""
+    given, time = emitter.node, plan.flat.time
+    if given.node_type.role != "emit" or "rate" not in given.given:
+        return 0.0
+    return min(_greatest(given.arguments["rate"]) * emitter.exposure.reach / time.fps, _alive(emitter, plan))
+
+
 def _too_much_memory(plan: Plan, limits: CookLimits) -> Problem | None:
     """Return that the particles and films alone would take more than the memory that is allowed; told where the most are born."""
-    each = {path: _alive(emitter, plan) * (_bytes_each(emitter) + SURVEYED) for path, emitter in plan.emitters.items()}
+    each = {
+        path: _alive(emitter, plan) * (_bytes_each(emitter) + SURVEYED) + _born_in_shutter(emitter, plan) * LIVED
+        for path, emitter in plan.emitters.items()
+    }
     particles, films = sum(each.values()), sum(16 * math.prod(image.size) for image in plan.images)
     if limits.memory is None or particles + films + BASE <= limits.memory:
         return None

@@ -71,7 +71,7 @@ def main() -> None:
             cook(file, out)
             file.write_text(json.dumps(graph(born, count)))
             store = next(iter(graphfx.load(file).simulation().particles.values())).store.bytes_per_row
-            for budget in budgets or [1000, 4000]:
+            for budget in budgets or [1100 if "rate" in born else 1000, 4000]:
                 peak, seconds = cook(file, out, "--memory", f"{budget}MB")
                 digests.add(hashlib.sha256(b"".join(made.read_bytes() for made in sorted(out.iterdir()))).hexdigest())
                 print(f"{count:,} born {name}, {store} bytes each, {count * store / MEGABYTE:,.0f} MB together; "
