@@ -23,7 +23,7 @@ def snow() -> graphfx.Graph:
         .spiral(speed=g.rand(2, 6))
         .gust(during=(0.5, 4.5), start=(-14, 3, -3), end=(14, 3, -3), strength=g.expr("7 * param.wind"), range=5, spacing=3.2,
               tightness=1.2)
-        .bounce_plane(resilience=0, friction=1)
+        .bounce_plane(response="stick")
     )
     view = g.camera("view", position=(0, 1.6, 9), target=(0, 2.4, 0), lens=30, near=1)
     g.image("frames", of=fall.look(streak="solid"), camera=view, shutter=0.4, background=(0.004, 0.008, 0.022))
