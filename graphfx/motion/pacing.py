@@ -40,12 +40,6 @@ def corrected(value: Any, last: Any, other: Any, weight: Any) -> Any:
 
 
 @MOTION.function("float float", "float")
-def later_by(time: Any, dt: Any) -> Any:
-    """time + dt."""
-    return time + dt
-
-
-@MOTION.function("float float", "float")
 def part_of(dt: Any, share: Any) -> Any:
     """dt share."""
     return dt * share

@@ -9,6 +9,7 @@ from graphfx.plan.barriers import Barriers, Plane
 from graphfx.plan.crossing import Crossings, MomentOf, Search, Way, way_of
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.motion import Motion, Mover
+from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -31,12 +32,6 @@ def remember(builder: Builder, state: State) -> dict[str, Column]:
     assert state.velocity is not None
     first = builder.call(crossing.start, state.position, state.velocity, name="start velocity")
     return dict(zip(("position", "velocity"), first, strict=True))
-
-
-def return_to(builder: Builder, state: State, first: dict[str, Column]) -> None:
-    """Go back to the start of a step."""
-    builder.call(basic.copy_vector, first["position"], into=state.position)  # type: ignore[arg-type]
-    builder.call(basic.copy_vector, first["velocity"], into=state.velocity)  # type: ignore[arg-type]
 
 
 @dataclass
@@ -112,12 +107,12 @@ class ContactSearch:
         found, share = search.find(builder, candidate.start)
         inner = builder.under(found)
         time = inner.call(crossing.share_of, share, self.step, name="time inside")
-        return_to(inner, state, self.first)
+        put_back(inner, state, self.first)
         moment = self.moment_of(inner, time)
         self.motion.step(moment, state)
         distance, _ = distance_of(self.motion, surface, moment, state)
         inside = inner.call(contact.is_inside, distance, name="inside")
-        return_to(inner, state, last)
+        put_back(inner, state, last)
         candidate.span = builder.under(builder.program.context).call(basic.copy_number, self.step, name="span")
         builder.under(inside).call(basic.copy_number, time, into=candidate.span)
         builder.under(inside).call(basic.copy_number, distance, into=candidate.end)
@@ -149,7 +144,7 @@ class ContactSearch:
         searching = builder.call(basic.but_not, builder.mask, at_once, name="searching")
         inner = builder.loop(searching, SEARCH_LIMIT, builder.note)
         inner.call(contact.propose, a, at_a, b, at_b, into=time)
-        return_to(inner, state, self.first)
+        put_back(inner, state, self.first)
         moment = self.moment_of(inner, time)
         self.motion.step(moment, state)
         distance, _ = distance_from(self.motion, candidate.surface, moment, state, candidate.plane)
@@ -173,7 +168,7 @@ class ContactSearch:
                 inner.under(builder.mask).call(basic.either, candidate.hit, more, into=candidate.hit)
         inner.call(basic.both, again, again, into=doubtful)
         left = builder.under(doubtful)
-        return_to(left, self.state, self.first)
+        put_back(left, self.state, self.first)
         left.call(barrier.turned_back, self.state.velocity, into=self.state.velocity)  # type: ignore[arg-type]
         left.call(basic.copy_number, self.step, into=best)
         for candidate in candidates:
@@ -195,6 +190,6 @@ class ContactSearch:
         found.plane, found.time = candidate.plane, candidate.time
         found.span = fresh.call(basic.copy_number, best, name="limit")
         self.find(found, fresh, best)
-        return_to(fresh, self.state, self.first)
+        put_back(fresh, self.state, self.first)
         self.motion.step(self.moment_of(fresh, best), self.state)
         return plane.hit

@@ -9,13 +9,13 @@ from typing import Any
 from graphfx.motion import barrier, basic, contact, events, settling
 from graphfx.node import INFINITY
 from graphfx.plan.barriers import Barriers, is_barrier
-from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_from, remember, return_to
+from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_from, remember
 from graphfx.plan.crossing import Crossings, way_of
 from graphfx.plan.hits import Fate, Hit, Hits, response_of
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion, Mover
 from graphfx.plan.pacing import Pacing
-from graphfx.plan.scheme import kept_state
+from graphfx.plan.scheme import kept_state, put_back
 from graphfx.plan.settling import Settling
 from graphfx.plan.sliding import Sliding
 from graphfx.plan.surfaces import distance_of, moves
@@ -135,7 +135,7 @@ class Contacts:
             search.find(candidate, builder.under(candidate.hit), best)
         met = _any_of(builder, [candidate.hit for candidate in candidates])
         inner = builder.under(met)
-        return_to(inner, state, first)
+        put_back(inner, state, first)
         self.motion.step(moment_of(inner, best), state)
         if settled is not None:
             met = settled.take(builder, state, best, step, met)

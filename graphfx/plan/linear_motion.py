@@ -8,16 +8,15 @@ from typing import Any
 
 from graphfx.motion import basic, linear, spring
 from graphfx.plan.matrix_motion import MatrixMotion
-from graphfx.plan.moment import Moment, State
+from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.plan.movers import Mover
 from graphfx.plan.rounding import way_of
 from graphfx.plan.values import folded_call
-from graphfx.plan.white_noise import WhiteNoise
+from graphfx.plan.white_noise import NOUGHT, WhiteNoise
 from graphfx.program import Builder, Column, Operand, Uniform
 
 X_AXIS, Y_AXIS = Uniform("(1, 0, 0)", "vec3", (1.0, 0.0, 0.0)), Uniform("(0, 1, 0)", "vec3", (0.0, 1.0, 0.0))
 ONE = Uniform("1", "float", 1.0)
-ZERO, NOUGHT = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0)), Uniform("0", "float", 0.0)
 FAR_AWAY = Uniform("(2^60, 0, 0)", "vec3", (basic.FAR, 0.0, 0.0))
 """So far that what pulls there tells its stiffness to the last digit, wherever it pulls to."""
 

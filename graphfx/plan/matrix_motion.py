@@ -15,11 +15,9 @@ from graphfx.motion import basic, matrix
 from graphfx.plan.evaluate import timed_value
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.matrix_form import STATES, columns_of, random_value
-from graphfx.plan.moment import Moment, State
+from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.plan.movers import Mover
 from graphfx.program import Builder, Column, Operand, Uniform
-
-ZERO = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
 
 
 @dataclass(eq=False)

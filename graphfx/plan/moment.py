@@ -19,8 +19,8 @@ from graphfx.plan.rates import NOUGHT, Scope
 from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Operand, Uniform
 
-NO_TIME = Uniform("0", "float", 0.0)
 ZERO_TIME = Uniform("0", "float", 0.0)
+ZERO = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
 AGES = ("age", "normalized_age")
 
 
@@ -204,7 +204,7 @@ class Moments:
             if share == 0:
                 return then
             passed = builder.call(pacing.part_of, dt, Uniform(f"{share:.6g}", "float", share), name="passed")
-            made: Operand = builder.call(pacing.later_by, then, passed, name="then")
+            made: Operand = builder.call(basic.sum_of_numbers, then, passed, name="then")
             return made
 
         lane = self._lane_clock(builder, k, lambda: builder.call(basic.sum_of_numbers, then, lane["half"], name="middle"))
@@ -227,7 +227,7 @@ class Moments:
             part,
             cell,
             lambda: builder.call(basic.difference, ZERO_TIME, builder.load("age", "float"), name="born"),
-            lambda share: self.own_step(builder, k, later(share), NO_TIME, state, cell),
+            lambda share: self.own_step(builder, k, later(share), ZERO_TIME, state, cell),
             self.made,
             k,
         )

@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from graphfx.motion import basic, runge_kutta
-from graphfx.plan.linear_motion import NOUGHT, ZERO, zero_outside
-from graphfx.plan.moment import Moment, State
+from graphfx.plan.linear_motion import zero_outside
+from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.plan.movers import INNER_ROLES
 from graphfx.plan.scheme import kept_state, put_back
+from graphfx.plan.white_noise import NOUGHT
 from graphfx.program import Builder, Column, Operand, Uniform
 
 Rates = dict[str, Operand]

@@ -6,13 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from graphfx.motion import basic, pacing
-from graphfx.plan.moment import Moment, State
+from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.program import Builder, Column, Operand, Uniform
 
 COUNTS = {4: (1, 2), 6: (1, 2, 3), 8: (1, 2, 3, 4)}
 """Numbers of equal steps that are extrapolated, by the order that results."""
-
-ZERO = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,11 @@ from graphfx.graph.values import Literal
 from graphfx.motion import basic, crossing, settling
 from graphfx.node import INFINITY
 from graphfx.plan.barriers import is_barrier
-from graphfx.plan.contact_search import Candidate, ContactSearch, return_to
+from graphfx.plan.contact_search import Candidate, ContactSearch
 from graphfx.plan.hits import response_of
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.motion import Mover
+from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of, moves
 from graphfx.program import Builder, Column, Operand, Uniform
 
@@ -34,7 +35,7 @@ class Settled:
         """Write their states, and the time that each has used; return them with those who have `met` a surface."""
         builder.note = "settle"
         inner = builder.under(self.who)
-        return_to(inner, state, {"position": self.place, "velocity": self.velocity})
+        put_back(inner, state, {"position": self.place, "velocity": self.velocity})
         for time in (best, step):
             inner.call(basic.copy_number, self.time, into=time)
         return builder.call(basic.either, met, self.who, name="met")  # type: ignore[no-any-return]
@@ -135,7 +136,7 @@ class Settling:
     def _acceleration(self, builder: Builder, start: dict[str, Column], dt: Column) -> Column:
         """Write the mean acceleration over a time from a state."""
         search, name = self.search, "acceleration"
-        return_to(builder, search.state, start)
+        put_back(builder, search.state, start)
         search.motion.step(search.moment_of(builder, dt), search.state)
         found: Column = builder.call(settling.mean, start["velocity"], search.state.read("velocity"), dt, name=name)
         return found

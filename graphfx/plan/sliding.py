@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 from graphfx.motion import basic, contact, crossing
 from graphfx.plan.barriers import Barriers, is_barrier
-from graphfx.plan.contact_search import SEARCH_LIMIT, remember, return_to
+from graphfx.plan.contact_search import SEARCH_LIMIT, remember
 from graphfx.plan.crossing import NOUGHT, MomentOf
 from graphfx.plan.moment import State
 from graphfx.plan.motion import Motion, Mover
+from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Uniform
 
@@ -83,7 +84,7 @@ class Sliding:
         for surface in self.solids:
             path = surface.node.path
             self._find(builder.under(blocked[path]), surface, first, (starts[path], ends[path]), step, used, apart)
-        return_to(builder, self.state, first)
+        put_back(builder, self.state, first)
         self._along(builder, used, blocked)
 
     def _find(
@@ -104,7 +105,7 @@ class Sliding:
         searching = builder.call(basic.both, builder.mask, builder.mask, name="searching")
         inner = builder.loop(searching, SEARCH_LIMIT, builder.note)
         inner.call(contact.propose, *bracket[:4], into=time)
-        return_to(inner, self.state, first)
+        put_back(inner, self.state, first)
         self._along(inner, time, apart)
         distance, _ = distance_of(self.motion, surface, self.moment_of(inner, time), self.state)
         inner.call(contact.narrow, *bracket, time, distance, NOUGHT, into=tuple(bracket))

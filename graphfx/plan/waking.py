@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 from graphfx.motion import basic, contact, settling
 from graphfx.plan.barriers import Barriers, is_barrier
-from graphfx.plan.contact_search import remember, return_to
+from graphfx.plan.contact_search import remember
 from graphfx.plan.hits import response_of
 from graphfx.plan.moment import Moment, State
 from graphfx.plan.motion import Motion
+from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of
 from graphfx.program import Column, Uniform
 
@@ -49,7 +50,7 @@ class Waking:
         first = remember(builder, state)
         self.motion.step(moment, state)
         way = builder.call(basic.difference_of_vectors, state.position, first["position"], name="way from rest")
-        return_to(builder, state, first)
+        put_back(builder, state, first)
         place = first["position"]
         tolerance = builder.call(contact.contact_tolerance, place, self.resolution, name="tolerance")
         held = builder.call(basic.but_not, builder.mask, builder.mask, name="held")

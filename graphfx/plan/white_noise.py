@@ -7,11 +7,11 @@ from dataclasses import dataclass, field, replace
 from graphfx.math.random import key_of
 from graphfx.motion import basic, wiener
 from graphfx.motion.clock import GRID
-from graphfx.plan.moment import Moment
+from graphfx.plan.moment import ZERO, Moment
 from graphfx.plan.movers import Mover
 from graphfx.program import Column, Operand, Uniform
 
-NOUGHT, ZERO = Uniform("0", "float", 0.0), Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
+NOUGHT = Uniform("0", "float", 0.0)
 END = Uniform(f"{GRID}", "float", float(GRID))
 WHOLE_STEP = -1
 """In place of a cell's number: the whole step, however many cells it meets."""
