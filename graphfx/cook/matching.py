@@ -32,6 +32,14 @@ def size(vectors: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(found), found, np.inf)
 
 
+def distances(true: States, other: States) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return how far each particle of `true` is from where `other` has it, infinite where it has not; and the rows of both."""
+    rows, theirs = matched(true, other)
+    found = np.full(len(true), np.inf)
+    found[rows] = size(other.position[theirs] - true.position[rows])
+    return found, rows, theirs
+
+
 def quantile(ascending: np.ndarray, share: float) -> float:
     """Return the least value that a share of ascending values does not exceed."""
     return float(ascending[max(int(np.ceil(share * len(ascending))) - 1, 0)])

@@ -14,7 +14,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from graphfx.cook.matching import matched, quantile, size
+from graphfx.cook.matching import distances, quantile
 from graphfx.cook.sample import Sample
 from graphfx.cook.trial import States, Trial, Trials, sample_of, spread_frames
 from graphfx.graph.flat import FlatGraph
@@ -191,10 +191,4 @@ class Pilot:
 
 def errors_of(true: Mapping[int, States], other: Mapping[int, States]) -> np.ndarray:
     """Return the distances of all particles at all frames, ascending [m]; what is missing is infinitely far away."""
-    found = [np.zeros(0)]
-    for frame, states in true.items():
-        rows, theirs = matched(states, other[frame])
-        distance = np.full(len(states), np.inf)
-        distance[rows] = size(other[frame].position[theirs] - states.position[rows])
-        found.append(distance)
-    return np.sort(np.concatenate(found))
+    return np.sort(np.concatenate([np.zeros(0), *(distances(states, other[frame])[0] for frame, states in true.items())]))

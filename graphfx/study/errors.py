@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from graphfx.cook.matching import keys_of, matched, quantile, size
+from graphfx.cook.matching import distances, keys_of, quantile
 from graphfx.cook.trial import States
 
 StatesByFrame = Mapping[str, Mapping[int, States]]
@@ -53,12 +53,10 @@ class Distances:
 
     def add(self, source: str, frame: int, true: States, other: States, extent: float) -> None:
         """Compare the particles of one source at one frame."""
-        rows, theirs = matched(true, other)
+        distance, rows, theirs = distances(true, other)
         keys = keys_of(true)
         lost = np.ones(len(true), bool)
         lost[rows] = False
-        distance = np.full(len(true), np.inf)
-        distance[rows] = size(other.position[theirs] - true.position[rows])
         wrong = np.zeros(len(true), bool)
         wrong[rows] = ~np.isfinite(other.position[theirs]).all(axis=1)
         away = ~lost & ~wrong & (distance > extent)

@@ -19,12 +19,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from graphfx.cook.matching import keys_of, matched, size
 from graphfx.cook.sample import Sample
 from graphfx.cook.trial import States, Trial, Trials
 from graphfx.errors import GraphfxError
 from graphfx.graph.flat import FlatGraph
 from graphfx.study.candidates import settings
-from graphfx.study.errors import Distances, Errors, StatesByFrame, keys_of, matched, size
+from graphfx.study.errors import Distances, Errors, StatesByFrame
 
 FINER = 1e-5
 """The tolerance of a reference, as a share of the graph's."""

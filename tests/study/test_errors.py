@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.cook.matching import matched, quantile, size
 from graphfx.cook.trial import States
-from graphfx.study.errors import Distances, matched, observed_order, quantile, root_mean_square, size
+from graphfx.study.errors import Distances, observed_order, root_mean_square
 
 
 def states(places, ids=None, lives=None) -> States:
