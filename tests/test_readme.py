@@ -69,8 +69,8 @@ def test_every_command_and_exit_code_is_told() -> None:
     """The table has every command, and the list every exit code."""
     from graphfx import errors
 
-    commands = {file.stem for file in (ROOT / "graphfx" / "cli" / "commands").glob("[!_]*.py")}
-    assert set(re.findall(r"^\| `graphfx (\w+)", README, re.MULTILINE)) == commands
+    commands = {file.stem.replace("_", "-") for file in (ROOT / "graphfx" / "cli" / "commands").glob("[!_]*.py")}
+    assert set(re.findall(r"^\| `graphfx ([\w-]+)", README, re.MULTILINE)) == commands
     told = README.partition("## Exit codes")[2].partition("##")[0]
     codes = {value for name, value in vars(errors).items() if name.startswith("EXIT_")}
     assert {int(code) for code in re.findall(r"(?:^|; |\n)(\d+) [a-z]", told)} == codes

@@ -22,17 +22,17 @@ COMPLETION = "_GRAPHFX_COMPLETE"
 
 
 class Commands(click.Group):
-    """A group whose commands are the files of a folder."""
+    """A group whose commands are the files of a folder; `contact-sheet` is contact_sheet.py."""
 
     def list_commands(self, context: click.Context) -> list[str]:
         """Return the names of the commands."""
-        return sorted(module.name for module in pkgutil.iter_modules(commands.__path__))
+        return sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules(commands.__path__))
 
     def get_command(self, context: click.Context, name: str) -> click.Command | None:
         """Import a command's file."""
         if name not in self.list_commands(context):
             return None
-        command: click.Command = importlib.import_module(f"{commands.__name__}.{name}").command
+        command: click.Command = importlib.import_module(f"{commands.__name__}.{name.replace('-', '_')}").command
         command.name = name
         return command
 

@@ -102,5 +102,10 @@ class _Size(click.ParamType):
         return int(found[1]), int(found[2]) if found[2] else None
 
 
-size: Callable[[Any], Any] = click.option(
-    "--size", type=_Size(), metavar="WIDTH[xHEIGHT]", help="Pixels; as the picture, but 640 wide at most, if not given.")
+def sized(widest: int) -> Callable[[Any], Any]:
+    """Give a command the option of a picture's size, which is so wide at most unless it is given."""
+    return click.option("--size", type=_Size(), metavar="WIDTH[xHEIGHT]",
+                        help=f"Pixels; as the picture, but {widest} wide at most, if not given.")
+
+
+size = sized(640)

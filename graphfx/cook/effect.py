@@ -25,7 +25,7 @@ from graphfx.cook.far import FarAway
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.memory import is_scarce, return_what_is_freed
-from graphfx.cook.movies import movie_file, open_movies
+from graphfx.cook.movies import KINDS, Open, movie_file, open_movies
 from graphfx.cook.pilot import planned
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer
@@ -59,10 +59,10 @@ class FrameReport:
 
 
 class Effect:
-    """A flattened graph and its plan."""
+    """A flattened graph and its plan; `kinds` say what becomes of the pictures of a movie, by the suffix of its file."""
 
-    def __init__(self, flat: FlatGraph):
-        self.flat = flat
+    def __init__(self, flat: FlatGraph, kinds: Mapping[str, Open] = KINDS):
+        self.flat, self.kinds = flat, kinds
 
     @cached_property
     def draft(self) -> Plan:
@@ -118,7 +118,7 @@ class Effect:
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
         writer, far = Writer(self.plan, threads, limits.memory), FarAway()
         pixels = sum(math.prod(image.size) for image in self.plan.images)
-        with open_movies(self.plan, out) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
+        with open_movies(self.plan, out, self.kinds) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
             for frame in simulation.frames(frames[-1]):
                 if frame not in wanted:

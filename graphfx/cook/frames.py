@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from graphfx.errors import UsageError
 
 _PART = re.compile(r"\s*(-?\d{1,9})(?:-(-?\d{1,9})(?:x(\d{1,9}))?)?\s*")
 
 
-def parse_frames(text: str, first: int, last: int) -> list[int]:
-    """Return the frames of a set in ascending order, each once; all must lie in the graph's range."""
+def parse_frames(text: str, first: int, last: int, whose: str = "the graph's",
+                 to_have_more: str = "change time.frames in the graph to have more") -> list[int]:
+    """Return the frames of a set in ascending order, each once; all must lie between the first and the last of someone's."""
     found: set[int] = set()
     for part in text.split(","):
         match = _PART.fullmatch(part)
@@ -22,10 +23,7 @@ def parse_frames(text: str, first: int, last: int) -> list[int]:
         if end < begin or step < 1:
             raise UsageError(f"--frames: '{part.strip()}' is empty; write the lesser frame first and a step of 1 or more")
         if begin < first or end > last:
-            raise UsageError(
-                f"--frames: '{part.strip()}' goes beyond the graph's frames {first} to {last}; "
-                "change time.frames in the graph to have more"
-            )
+            raise UsageError(f"--frames: '{part.strip()}' goes beyond {whose} frames {first} to {last}; {to_have_more}")
         found.update(range(begin, end + 1, step))
     return sorted(found)
 
@@ -44,3 +42,9 @@ def frames_text(frames: Iterable[int]) -> str:
         parts.append(f"{left[0]}{many if count > 1 else ''}")
         left = left[count:]
     return ",".join(parts)
+
+
+def spread(frames: Sequence[int], count: int) -> list[int]:
+    """Return so many of the frames, or all if they are fewer, evenly spread from the first to the last."""
+    count = min(count, len(frames))
+    return [frames[place * (len(frames) - 1) // max(count - 1, 1)] for place in range(count)]

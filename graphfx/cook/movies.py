@@ -72,7 +72,7 @@ def _too_large(suffix: str, side: int, size: str) -> str:
 
 
 @contextmanager
-def open_movies(plan: Plan, out: Path) -> Iterator[list[Movie]]:
+def open_movies(plan: Plan, out: Path, kinds: Mapping[str, Open]) -> Iterator[list[Movie]]:
     """Give what takes the pictures of each movie; the files are there when the block ends well, and only then."""
     with ExitStack() as files:
         opened = []
@@ -80,6 +80,6 @@ def open_movies(plan: Plan, out: Path) -> Iterator[list[Movie]]:
             path = movie_file(movie, plan.flat.name, out)
             make_folder(path)
             suffix = path.suffix.lower()
-            way = KINDS[suffix](path, plan.flat.time.fps, float(movie.value("quality")), bool(movie.image.value("transparent")))
+            way = kinds[suffix](path, plan.flat.time.fps, float(movie.value("quality")), bool(movie.image.value("transparent")))
             opened.append(Movie(movie.image, files.enter_context(way), 16 if suffix == ".mov" else 8))
         yield opened

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphfx.cook.effect import Effect
+from graphfx.cook.frames import spread
 from graphfx.errors import NOWHERE, GraphError, Location, Problem
 from graphfx.graph.check_values import default_value
 from graphfx.graph.flat import FlatGraph, FlatNode
@@ -42,17 +43,17 @@ QUALITY = 60.0
 
 
 def preview_of(flat: FlatGraph, library: Library, file: str, size: tuple[int, int | None] | None = None,
-               draws: str = "preview") -> FlatGraph:
+               draws: str = "preview", widest: int = WIDEST) -> FlatGraph:
     """Return a graph that draws the first picture of another small into `file`, an animation; `draws` is the type of node.
 
     With # in its name `file` is the stills' name, and there is no animation. `size` is the width, and the height unless that
-    follows from the picture's.
+    follows from the picture's; without it the picture's own is taken, but no more than `widest` pixels of width.
     """
     pictures = [node for node in flat.nodes.values() if node.node_type.role in PICTURES and node.enabled]
     nodes = {path: node for path, node in flat.nodes.items() if node.node_type.role not in OUTPUTS}
     picture = pictures[0] if pictures else _everything(flat, library, nodes)
     arguments = {name: picture.arguments.get(name, value) for name, value in _defaults(library, draws).items()}
-    arguments["size"] = _literal("list", list(_reduced([int(part) for part in plain_value(arguments["size"])], size)))
+    arguments["size"] = _literal("list", list(_reduced([int(part) for part in plain_value(arguments["size"])], size, widest)))
     stills = "#" in file
     if stills:
         arguments["file"] = _literal("string", file, Location("--out"))
@@ -86,7 +87,7 @@ def camera_placed(flat: FlatGraph, frames: Iterable[int], threads: int) -> FlatG
 
 def _box(effect: Effect, frames: list[int], threads: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the corners of a box that holds nearly all particles at some of the frames."""
-    wanted = {frames[k * (len(frames) - 1) // max(LOOKS_AT - 1, 1)] for k in range(LOOKS_AT)}
+    wanted = spread(frames, LOOKS_AT)
     ends = []
     simulation = effect.simulation(threads)
     for frame in simulation.frames(frames[-1]):
@@ -137,10 +138,10 @@ def _literal(type_: str, value: Any, location: Location = NOWHERE) -> Literal:
     return Literal(type_, location, value=value)
 
 
-def _reduced(size: list[int], wanted: tuple[int, int | None] | None) -> tuple[int, int]:
+def _reduced(size: list[int], wanted: tuple[int, int | None] | None, widest: int) -> tuple[int, int]:
     """Return the size of a preview: even, as movies need it, unless it is asked for to the pixel."""
     width, height = size
     if wanted is not None and wanted[1] is not None:
         return wanted[0], wanted[1]
-    wide = wanted[0] if wanted is not None else min(width, WIDEST)
+    wide = wanted[0] if wanted is not None else min(width, widest)
     return (wide if wanted else max(wide // 2, 1) * 2), max(round(height * wide / width / 2), 1) * 2

@@ -26,7 +26,7 @@ def check_texture(file: str, whole: bool = False) -> None:
 
     Only its beginning is read, unless the `whole` is to be: then GraphError is raised for a damaged one too.
     """
-    with _opened(file) as picture:
+    with opened(file) as picture:
         width, height = picture.size
         if width * height > MOST_TEXELS:
             raise LimitError(Problem(f"the picture {Path(file).name} has {width} x {height} pixels, {width * height:,}; the most "
@@ -35,17 +35,17 @@ def check_texture(file: str, whole: bool = False) -> None:
             try:
                 picture.load()
             except (OSError, ValueError, SyntaxError) as error:
-                raise _unreadable(file, error) from error
+                raise unreadable(file, error) from error
 
 
 def load_texture(file: str, color: bool) -> Texture:
     """Return a picture as a texture of colours, or of opacities; raise as `check_texture` does, and for a damaged one."""
     check_texture(file)
-    with _opened(file) as picture:
+    with opened(file) as picture:
         try:
             return color_texture(picture) if color else _opacity_texture(picture)
         except (OSError, ValueError, SyntaxError) as error:
-            raise _unreadable(file, error) from error
+            raise unreadable(file, error) from error
 
 
 def color_texture(picture: Any) -> Texture:
@@ -56,11 +56,11 @@ def color_texture(picture: Any) -> Texture:
 def load_light(file: str) -> np.ndarray:
     """Return the light of a picture (height, width, 3 or 4), row 0 at the top, alpha not multiplied in."""
     check_texture(file)
-    with _opened(file) as picture:
+    with opened(file) as picture:
         try:
             return _light(picture)
         except (OSError, ValueError, SyntaxError) as error:
-            raise _unreadable(file, error) from error
+            raise unreadable(file, error) from error
 
 
 def _light(picture: Any) -> np.ndarray:
@@ -82,7 +82,8 @@ def _opacity_texture(picture: Any) -> Texture:
     return textured(np.asarray(grey) / np.float32(255), color=False)
 
 
-def _opened(file: str) -> Any:
+def opened(file: str) -> Any:
+    """Return a file as a Pillow picture, of which only the beginning was read; raise as `check_texture` does."""
     from PIL import Image
 
     try:
@@ -92,10 +93,11 @@ def _opened(file: str) -> Any:
     except Image.DecompressionBombError as error:
         raise LimitError(Problem(f"the picture {Path(file).name} is too large: {error}")) from error
     except (OSError, ValueError, SyntaxError) as error:
-        raise _unreadable(file, error) from error
+        raise unreadable(file, error) from error
 
 
-def _unreadable(file: str, error: Exception) -> GraphError:
+def unreadable(file: str, error: Exception) -> GraphError:
+    """Return what is told of a picture that cannot be read."""
     told = "it is no picture that is known" if "cannot identify" in str(error) else str(error)
     return GraphError(Problem(f"the picture {Path(file).name} cannot be read: {told}; give a PNG, JPEG, TIFF or another that "
                               "Pillow reads"))

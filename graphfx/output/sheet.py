@@ -84,7 +84,7 @@ def sheet(title: str, cards: Sequence[Card]) -> np.ndarray:
     height = top + sum(max(card.height for card in row) + GAP for row in rows) - GAP + MARGIN
     canvas = Image.new("RGB", (width, height), BACKGROUND)
     pen = ImageDraw.Draw(canvas)
-    pen.text((MARGIN, MARGIN), title, BRIGHT, _letters(30))
+    pen.text((MARGIN, MARGIN), title, BRIGHT, letters(30))
     for row in rows:
         left = MARGIN
         for card in row:
@@ -94,7 +94,8 @@ def sheet(title: str, cards: Sequence[Card]) -> np.ndarray:
     return np.asarray(canvas)
 
 
-def _letters(height: int) -> Any:
+def letters(height: int) -> Any:
+    """Return the font of a sheet, so many pixels high."""
     from PIL import ImageFont
 
     return ImageFont.load_default(height)
@@ -103,14 +104,14 @@ def _letters(height: int) -> Any:
 def _draw_card(canvas: Any, pen: Any, card: Card, left: int, top: int) -> None:
     from PIL import Image
 
-    pen.text((left, top), card.title, BRIGHT, _letters(TITLE))
+    pen.text((left, top), card.title, BRIGHT, letters(TITLE))
     for number, line in enumerate(_broken(card.caption, card.width, pen)[:2]):
-        pen.text((left, top + 32 + number * 20), line, PLAIN, _letters(CAPTION))
+        pen.text((left, top + 32 + number * 20), line, PLAIN, letters(CAPTION))
     for number, picture in enumerate(card.pictures):
         canvas.paste(Image.fromarray(picture.pixels), (left, top + HEAD))
         facts = card.facts if number == 0 else ()
         said = "   ".join((*([picture.label] if picture.label else []), *facts))
-        pen.text((left, top + HEAD + len(picture.pixels) + 8), said, DIM, _letters(LABEL))
+        pen.text((left, top + HEAD + len(picture.pixels) + 8), said, DIM, letters(LABEL))
         left += picture.width + BETWEEN
 
 
@@ -119,7 +120,7 @@ def _broken(text: str, width: int, pen: Any) -> list[str]:
     lines = [""]
     for word in text.split():
         longer = f"{lines[-1]} {word}".strip()
-        if lines[-1] and pen.textlength(longer, _letters(CAPTION)) > width:
+        if lines[-1] and pen.textlength(longer, letters(CAPTION)) > width:
             lines.append(word)
         else:
             lines[-1] = longer

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphfx.cook.frames import frames_text, parse_frames
+from graphfx.cook.frames import frames_text, parse_frames, spread
 
 
 @pytest.mark.parametrize(("text", "frames"), [
@@ -30,3 +32,14 @@ def test_how_a_set_is_written(frames: list[int], text: str) -> None:
 def test_written_and_read_again(frames: set[int]) -> None:
     """Any set of frames survives being written and read."""
     assert parse_frames(frames_text(frames), -50, 200) == sorted(frames)
+
+
+@given(st.sets(st.integers(-500, 500), min_size=1).map(sorted), st.integers(1, 40))
+def test_spread_frames(frames: list[int], count: int) -> None:
+    """Spread frames are among those given, as many as asked for where there are, from the first to the last, and even."""
+    chosen = spread(frames, count)
+    places = [frames.index(frame) for frame in chosen]
+    assert len(chosen) == min(count, len(frames))
+    assert (places[0], places[-1]) == (0, len(frames) - 1 if len(chosen) > 1 else 0)
+    steps = [after - before for before, after in pairwise(places)]
+    assert not steps or max(steps) - min(steps) <= 1

@@ -14,7 +14,7 @@ import pytest
 import graphfx
 from graphfx.cli import commands
 
-COMMANDS = sorted(file.stem for file in Path(commands.__path__[0]).glob("[!_]*.py"))
+COMMANDS = sorted(file.stem.replace("_", "-") for file in Path(commands.__path__[0]).glob("[!_]*.py"))
 
 
 def test_help_is_instant(started: Callable[..., subprocess.Popen[str]]) -> None:
@@ -45,7 +45,7 @@ def test_no_arguments_show_help(invoke) -> None:
 
 def test_help_lists_every_command_in_full(invoke) -> None:
     """Each file of `commands` is listed, with a summary that is not cut short."""
-    listed = dict(re.findall(r"^  (\w+) +(\S.*)$", invoke().out.partition("Commands:")[2], re.MULTILINE))
+    listed = dict(re.findall(r"^  ([\w-]+) +(\S.*)$", invoke().out.partition("Commands:")[2], re.MULTILINE))
     assert sorted(listed) == COMMANDS
     assert [summary for summary in listed.values() if not summary.endswith(".") or summary.endswith("...")] == []
 

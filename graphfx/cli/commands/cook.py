@@ -98,6 +98,8 @@ class Cook:
     threads: int | None
     limits: CookLimits
     as_json: bool
+    kind: str = "movie"
+    """What a file of many frames is called."""
     done: list[int] = field(default_factory=list)
     faults: dict[tuple[str, str], tuple[int, int]] = field(default_factory=dict)
     """Of each stream and attribute that was not finite the first frame of that, and how often it was seen."""
@@ -214,7 +216,7 @@ class Cook:
         left = [frame for frame in self.frames if movies or frame not in set(self.done)]
         made = f"after frame {self.done[-1]}; all files in {self.out} are whole" if self.done else "before any file was written"
         if movies:
-            made += f"; no movie is written, as it needs all of its {counted(len(self.frames), 'frame')}"
+            made += f"; no {self.kind} is written, as it needs all of its {counted(len(self.frames), 'frame')}"
         command = shlex.join([*again, "--frames", frames_text(left)])
         return f"stopped {made}. To {'begin again' if movies else 'go on'}:", command
 
