@@ -95,6 +95,9 @@ def group_sample(group: Group) -> dict[str, Any]:
     nodes["made"] = {"type": group.name, **({"inputs": dict.fromkeys(graph.inputs, taken)} if graph.inputs else {})}
     if len(graph.inputs) == 1:
         nodes["made"] = {"type": group.name, "from": taken}
+    if meshes := [name for name, parameter in graph.params.items() if parameter.type == "mesh" and parameter.required]:
+        nodes["shape"] = {"type": "mesh_box"}
+        nodes["made"] |= dict.fromkeys(meshes, "shape")
     seen = ["made"] if len(graph.outputs) == 1 else [f"made.{port}" for port in graph.outputs]
     nodes["view"] = {"type": "camera", "position": [0, 1, 8], "target": [0, 1, 0]}
     nodes["frames"] = {"type": "image", "from": seen, "camera": "view", "size": [640, 360]}
