@@ -1,4 +1,4 @@
-"""The effect `snow`, in Python."""
+"""The effect of tests/snow.json, in Python."""
 
 from __future__ import annotations
 
@@ -6,8 +6,9 @@ import graphfx
 
 
 def snow() -> graphfx.Graph:
-    """Return the graph that graphs/effects/snow.json holds."""
-    g = graphfx.Graph("Snow at night, crossed by one gust. [Sims 1990, 5.1]", seed=7, fps=24, frames=(1, 120), preroll=10)
+    """Return the graph that tests/snow.json holds."""
+    g = graphfx.Graph("Snow, crossed by one gust, as tests need it: it stays as it is, whatever becomes of the effect.",
+                      seed=7, fps=24, frames=(1, 120), preroll=10)
     g.use("groups/gust.json")
     g.param("wind", 1.0, min=0, doc="Strength of the gust.")
     sky = g.emit("sky", rate=4000, life=14, set={

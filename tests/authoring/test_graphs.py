@@ -20,11 +20,12 @@ from .fireworks import fireworks
 from .snow import snow
 
 GRAPHS = bundled_root() / "graphs"
+SNOW = Path(__file__).parents[1] / "snow.json"
 
 
 def test_snow_is_the_file_to_the_byte(tmp_path: Path) -> None:
-    """The effect `snow` written in Python saves to the bytes of graphs/effects/snow.json."""
-    assert snow().save(tmp_path / "snow.json").read_bytes() == (GRAPHS / "effects" / "snow.json").read_bytes()
+    """A whole effect written in Python saves to the bytes of its file."""
+    assert snow().save(tmp_path / "snow.json").read_bytes() == SNOW.read_bytes()
 
 
 @pytest.mark.parametrize("file", sorted(GRAPHS.rglob("*.json")), ids=lambda file: file.stem)
@@ -38,7 +39,7 @@ def test_loading_and_saving_changes_nothing(file: Path, tmp_path: Path) -> None:
 
 def test_loaded_graphs_can_be_added_to() -> None:
     """Nodes of a loaded graph are had by their ids; a stack takes further operators at its end."""
-    graph = graphfx.Graph.load(GRAPHS / "effects" / "snow.json")
+    graph = graphfx.Graph.load(SNOW)
     graph["fall"].gravity(acceleration=(0, -1, 0))
     assert [op["type"] for op in graph.data["nodes"]["fall"]["ops"]] == ["spiral", "gust", "bounce_plane", "gravity"]
 

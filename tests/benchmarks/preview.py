@@ -35,7 +35,7 @@ Times = list[tuple[float, float, float]]
 def snow(particles: int, frames: int) -> Effect:
     """Return the preview of a snow with so many flakes alive from the first frame on."""
     library = Library(library_roots())
-    graph = json.loads((library_roots()[0] / "graphs" / "effects" / "snow.json").read_text())
+    graph = json.loads((Path(__file__).parents[1] / "snow.json").read_text())
     graph["time"] |= {"preroll": LIFE, "frames": [1, frames]}
     graph["nodes"]["sky"]["rate"] = particles / LIFE
     return Effect(preview_of(flatten(document_of(graph), library), library, "snow.webp"))

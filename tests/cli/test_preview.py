@@ -131,7 +131,7 @@ def test_camera_holds_what_it_should() -> None:
 
 def test_plan_of_a_preview_has_no_radius() -> None:
     """What a preview does not show is neither simulated nor stored."""
-    flat = flatten(library_roots()[0] / "graphs" / "effects" / "snow.json", LIBRARY)
+    flat = flatten(Path(__file__).parents[1] / "snow.json", LIBRARY)
     plan = make_plan(preview_of(flat, LIBRARY, "snow.webp"))
     assert "radius" in make_plan(flat).emitters["sky"].attributes.columns
     assert "radius" not in plan.emitters["sky"].attributes.columns

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from graphfx.graph.functions import FUNCTIONS
-from graphfx.node import bundled_root
 
 from .effects import bits, effect, graph, made
 
@@ -182,9 +182,9 @@ def test_several_emitters_merged_and_forked():
     agree(made(nodes=nodes, image={"from": "both"}))
 
 
-def test_shipped_effect():
-    """The effect that ships agrees, with few particles and early frames."""
-    file = bundled_root() / "graphs" / "effects" / "snow.json"
+def test_whole_effect():
+    """A whole effect agrees, with few particles and early frames."""
+    file = Path(__file__).parents[1] / "snow.json"
     document = json.loads(file.read_text())
     document["nodes"]["sky"]["rate"] = 6
     document["time"] |= {"preroll": 0.5, "frames": [1, 60]}

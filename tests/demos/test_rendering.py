@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from graphfx.cook.demo import picture_name
 from graphfx.graph.document import load_document
 from graphfx.graph.format import canonical
+from tests.pictures import faults_of_kept, is_as_kept
 
-from .goldens import DEMOS, FOLDER, LEVELS, LIBRARY, drawn, kept
+from .goldens import DEMOS, FOLDER, LIBRARY, drawn
 
 
 @pytest.mark.parametrize("name", DEMOS)
@@ -16,16 +18,13 @@ def test_pictures_are_as_kept(name: str) -> None:
     """Every image of a demo is as its small picture beside this file, to one level."""
     demo = DEMOS[name]
     for image, picture in drawn(demo).stills.items():
-        wanted = kept(demo, image)
-        assert picture.shape == wanted.shape
-        assert np.abs(picture.astype(int) - wanted).max() <= LEVELS
+        assert is_as_kept(picture, FOLDER / f"{picture_name(demo, image)}.png")
 
 
 def test_every_kept_picture_is_of_a_demo() -> None:
     """There is no picture without a demo, nor a large one."""
-    names = {f"{name}.{image}.png" for name, demo in DEMOS.items() for image in drawn(demo).stills}
-    assert {file.name for file in FOLDER.glob("*.png")} == names
-    assert max(file.stat().st_size for file in FOLDER.glob("*.png")) < 20_000
+    names = {picture_name(demo, image) for demo in DEMOS.values() for image in drawn(demo).stills}
+    assert faults_of_kept(FOLDER, names) == []
 
 
 def test_dust_does_not_flicker() -> None:

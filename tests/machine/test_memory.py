@@ -14,7 +14,7 @@ from graphfx.cook.effect import load
 from graphfx.plan.listing import plan_data
 
 ROOT = Path(__file__).resolve().parents[2]
-SNOW = ROOT / "graphs/effects/snow.json"
+SNOW = ROOT / "tests/snow.json"
 PARTICLES = 1_000_000
 MEASURE = """
 import ctypes, gc, json, resource, sys

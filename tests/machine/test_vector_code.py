@@ -23,7 +23,7 @@ from graphfx.plan.values import node_function
 from graphfx.program import Call, Draw, Function
 
 ROOT = Path(__file__).resolve().parents[2]
-GRAPHS = {"snow": ROOT / "graphs/effects/snow.json", "ten operators": ROOT / "tests/benchmarks/ten_operators.json"}
+GRAPHS = {"snow": ROOT / "tests/snow.json", "ten operators": ROOT / "tests/benchmarks/ten_operators.json"}
 LIBRARY = Library(library_roots())
 OPERATORS = [name for name in LIBRARY if LIBRARY.kind_of(name) == "operators" and not LIBRARY[name].language]
 FEATURES = llvmlite.binding.get_host_cpu_features()
