@@ -10,7 +10,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-SUFFIXES = (".py", ".json", ".md", ".png", ".obj")
+SUFFIXES = (".py", ".json", ".md", ".png", ".jpg", ".obj")
 
 
 class LibraryHook(BuildHookInterface):

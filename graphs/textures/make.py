@@ -103,7 +103,8 @@ def inside() -> np.ndarray:
     for foot, top, lean, width in COLUMNS_OF_DUST:
         middle = foot + lean * y + 0.012 * np.sin(9 * y + 20 * foot)
         head = np.clip((top - y) / (1.1 * width), 0, 1)
-        half = width * np.sqrt(head * (2 - head)) * (0.55 + 0.75 * np.clip(1 - y / top, 0, 1) ** 1.4 + 0.12 * np.sin(17 * y + 31 * foot))
+        taper = 0.55 + 0.75 * np.clip(1 - y / top, 0, 1) ** 1.4 + 0.12 * np.sin(17 * y + 31 * foot)
+        half = width * np.sqrt(head * (2 - head)) * taper
         column = np.where(y < top, half - abs(x - middle), top - y - abs(x - middle))
         near = np.maximum(0.03 - abs(depth - column), 0)
         depth = np.maximum(depth, column) + near * near / 0.12
