@@ -74,7 +74,9 @@ def respond(
     """V' = (1 - mu) Vt - eps Vn at the contact, and the position put on the surface. [Sims 1990, 3.4.3]
 
     Friction does not act on a particle slower than `threshold` [m/s]. One that would leave more slowly than
-    `rest_speed` [m/s] does not leave: with friction it stops there (third result), without it slides (fourth).
+    `rest_speed` [m/s] does not leave: with friction it stops there (third result), without it slides (fourth). Where there
+    is a threshold it slides too: its infinitely many bounces end with Vt min(1 - mu, threshold / |Vt|), and no friction acts on
+    who slides.
     One whose own velocity leaves the surface while an applied one drives it in keeps its velocity, and slides.
     """
     approach = dot(velocity, normal)
@@ -83,11 +85,14 @@ def respond(
     across = velocity - along
     slowed = where(length(velocity) < threshold, 0.0, friction)
     settled = (-approach * resilience <= rest_speed) & ~driven
-    stopped = settled & (slowed > 0.0)
-    bounced = where(settled, across, across * (1.0 - slowed) - along * resilience)
+    stopped = settled & (slowed > 0.0) & (threshold <= 0.0)
+    pace = length(across)
+    arrives = (slowed > 0.0) & (-approach > rest_speed)
+    limited = minimum(1.0 - slowed, threshold / where(pace > threshold, pace, threshold))
+    bounced = where(settled, across * where(arrives, limited, 1.0), across * (1.0 - slowed) - along * resilience)
     still = velocity - velocity
     answered = where(driven, velocity, where(stopped, still, bounced))
-    return position - normal * distance, answered, stopped, driven | (settled & ~(slowed > 0.0))
+    return position - normal * distance, answered, stopped, driven | (settled & ~stopped)
 
 
 @MOTION.function("float float", "bool")

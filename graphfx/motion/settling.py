@@ -150,10 +150,16 @@ def extent(velocity: Any, mean: Any, time: Any) -> Any:
     return (length(velocity) + length(mean) * time) * time
 
 
-@SETTLING.function("vec3 vec3", "vec3")
-def level(velocity: Any, normal: Any) -> Any:
-    """V - (V . N) N."""
-    return velocity - normal * dot(velocity, normal)
+@SETTLING.function("vec3 vec3 float float", "vec3")
+def slowed_down(velocity: Any, normal: Any, friction: Any, threshold: Any) -> Any:
+    """Vt min(1 - mu, threshold / |Vt|) where friction acts, else Vt: after infinitely many bounces within no time.
+
+    Where there is no `threshold` [m/s] the contact that comes next stops it.
+    """
+    along = velocity - normal * dot(velocity, normal)
+    pace = length(along)
+    acts = (threshold > 0.0) & (friction > 0.0) & (pace >= threshold)
+    return along * where(acts, minimum(1.0 - friction, threshold / where(pace > 0.0, pace, 1.0)), 1.0)
 
 
 @SETTLING.function("vec3 vec3 float", "vec3")

@@ -92,7 +92,8 @@ class Settling:
         laid = laid if fits is None else inner.call(basic.but_not, laid, fits, name="laid")
         under = inner.under(laid)
         under.call(basic.copy_vector, first["position"], into=made.place)
-        under.call(settling.level, velocity, normal, into=made.velocity)
+        limits = self.response(surface, whole, ("friction", "friction_threshold"))
+        under.call(settling.slowed_down, velocity, normal, *limits, into=made.velocity)
         under.call(basic.copy_number, NOUGHT, into=made.time)
         everywhere = inner.under(inner.program.context)
         for found in (laid, fits):

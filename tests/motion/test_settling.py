@@ -60,6 +60,24 @@ def test_without_resilience_it_rests_at_the_first_contact():
         assert (velocity[after:] == wanted).all()
 
 
+@pytest.mark.parametrize("resilience", [0.0, 0.4])
+@pytest.mark.parametrize("friction", [0.01, 0.3, 1.0])
+def test_a_threshold_keeps_friction_from_stopping(friction, resilience):
+    """Who settles where friction has a threshold goes on for ever, no faster than it; full friction alone stops all."""
+    floor = plane(resilience, friction, friction_threshold=0.8)
+    for speed in (0.3, 0.8, 5.0):
+        _, velocity = path([GRAVITY, floor], (0, 0.05, 0), (0, 0, speed), frames=240)
+        assert velocity[-1, 2] <= min(speed, 0.8) and (velocity[-1, 2] > 0) == (friction < 1) and not velocity[-1, :2].any()
+        assert (velocity[-1] == velocity[-48]).all()
+
+
+def test_a_threshold_lets_slopes_run():
+    """On a slope who settles with a threshold of friction never rests, and gains speed as without friction from there on."""
+    slope = plane(0.3, 0.5, friction_threshold=1.0, normal=[0.6, 0.8, 0])
+    _, velocity = path([GRAVITY, slope], (0, 0.2, 0), frames=96)
+    np.testing.assert_allclose(np.diff(velocity[48:], axis=0) * 24, [[0.48 * G, -0.36 * G, 0]] * 48, rtol=1e-9)
+
+
 @pytest.mark.parametrize("resilience, friction", [(0.0, 0.3), (0.5, 0.3), (0.5, 0.01), (0.8, 1.0), (0.95, 0.2)])
 def test_friction_is_the_same_at_any_rate(resilience, friction):
     """Where a ball with friction comes to rest is the same at 24, 60 and 240 frames a second, to 1e-12."""
