@@ -87,3 +87,13 @@ def test_flames_of_one_flicker_are_alike() -> None:
     lives = [fire["life"][fire["flicker"] == number] for number in range(5)]
     assert sum(map(len, lives)) == len(fire["life"]) > 1000
     assert max(np.ptp(each) for each in lives) <= 0.2 * 0.8 * 1.2 < np.ptp(fire["life"])
+
+
+def test_flames_gather_above_their_base() -> None:
+    """Flames do not spread like a fan: in still air old ones stand closer together than those that have just begun."""
+    calm = {"unrest": 0, "curl": 0, "rate": 4000, "base": 1}
+    fire = state(40, {"it": {"type": "flicker", **calm}}, "flicker")["it/fire"]
+    place, age = fire["position"], 40 / 24 - fire["birth"]
+    across = np.linalg.norm(place[:, ::2], axis=1)
+    old, young = age > 0.7 * fire["life"], age < 0.2 * fire["life"]
+    assert np.mean(across[old]) < 0.8 * np.mean(across[young]) and np.mean(place[old, 1]) > 1
