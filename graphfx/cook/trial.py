@@ -18,8 +18,6 @@ from graphfx.cook.particles import Particles
 from graphfx.cook.sample import Census, Sample, ordinals_of
 from graphfx.cook.simulate import Simulation
 from graphfx.graph.flat import FlatGraph
-from graphfx.graph.names import PICTURES
-from graphfx.graph.values import Literal
 from graphfx.motion.clock import Clock
 from graphfx.plan.make import Plan, make_plan
 from graphfx.plan.method import Choice
@@ -79,7 +77,7 @@ class Trials:
 
     def __post_init__(self) -> None:
         """Make the plan; raise GraphError where the method cannot carry the graph."""
-        self.plan = make_plan(without_shutters(self.flat), measured=MEASURED, choices=self.choices)
+        self.plan = make_plan(self.flat, measured=MEASURED, choices=self.choices)
         self.executor = BlockExecutor(self.plan.precision, self.threads)
 
     def simulation(self, sample: Sample | None = None) -> Simulation:
@@ -151,15 +149,6 @@ def states_of(particles: Particles) -> States:
 
     position, velocity = column("position", np.float64), column("velocity", np.float64)
     return States(column("id", np.uint64)[:, 0], column("lives", np.int64)[:, 0], position, velocity)
-
-
-def without_shutters(flat: FlatGraph) -> FlatGraph:
-    """Return a graph whose pictures see no past, so that nothing is kept for motion blur."""
-    nodes = dict(flat.nodes)
-    for path, node in flat.nodes.items():
-        if node.node_type.role in PICTURES and "shutter" in node.arguments:
-            nodes[path] = replace(node, arguments=node.arguments | {"shutter": Literal("float", value=0.0)})
-    return replace(flat, nodes=nodes)
 
 
 def spread_frames(frames: Iterable[int], most: int) -> list[int]:

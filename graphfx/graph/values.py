@@ -150,14 +150,15 @@ def children(tree: Any) -> tuple[Any, ...]:
     return ()
 
 
-def parts_of(tree: Any, seen: set[int] | None = None) -> Iterator[Any]:
+def parts_of(tree: Any) -> Iterator[Any]:
     """Yield a value and all its parts, each once however often it is shared."""
-    seen = set() if seen is None else seen
-    if id(tree) not in seen:
-        seen.add(id(tree))
-        yield tree
-        for part in children(tree):
-            yield from parts_of(part, seen)
+    waiting, seen = [tree], set()
+    while waiting:
+        part = waiting.pop()
+        if id(part) not in seen:
+            seen.add(id(part))
+            yield part
+            waiting += reversed(children(part))
 
 
 def measure(tree: Any) -> Measure:

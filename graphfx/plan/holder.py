@@ -8,7 +8,7 @@ from typing import Any
 
 from graphfx.graph.flat import Cluster, FlatNode
 from graphfx.graph.names import MOMENTS, SCOPES
-from graphfx.graph.values import Call, Expression, Literal, Member, Name, Node, Random, Value, children
+from graphfx.graph.values import Call, Expression, Literal, Member, Name, Node, Random, Value, children, parts_of
 from graphfx.node import ATTRIBUTES, Attribute
 from graphfx.plan.rates import CLOCK_NAMES, Rate, Scope, rate_of
 from graphfx.plan.sources import Sources
@@ -22,24 +22,30 @@ ALWAYS_INHERITED = ("position", "life", "generation")
 
 def names_in(tree: Any) -> set[str]:
     """Return the names that a value reads: attributes, clusters, `birth.x`, `parent.x`, `hit.x`; not the clock."""
-    own: set[str] = set()
-    if isinstance(tree, Name):
-        own = {tree.name} - set(CLOCK_NAMES)
-    elif isinstance(tree, Node) and tree.node_type is not None:
-        own = set(tree.node_type.reads)
-    if isinstance(tree, (Random, Node)):
-        own |= {"hits"} if tree.per == "hit" else set() if tree.per in SCOPES else {tree.per}
-    return own.union(*(names_in(part) for part in children(tree)))
+    names: set[str] = set()
+    for part in parts_of(tree):
+        if isinstance(part, Name):
+            names |= {part.name} - set(CLOCK_NAMES)
+        elif isinstance(part, Node) and part.node_type is not None:
+            names |= set(part.node_type.reads)
+        if isinstance(part, (Random, Node)):
+            names |= {"hits"} if part.per == "hit" else set() if part.per in SCOPES else {part.per}
+    return names
 
 
 def draws_in(tree: Any) -> bool:
     """Return whether a value draws random numbers for each particle, or reads its id."""
-    own = isinstance(tree, Random) or (
-        isinstance(tree, Node) and tree.node_type is not None and "draw" in tree.node_type.reserved
+    return any(map(_draws_itself, parts_of(tree)))
+
+
+def _draws_itself(part: Any) -> bool:
+    """Return whether a part of a value draws for each particle, or reads its id, itself."""
+    own = isinstance(part, Random) or (
+        isinstance(part, Node) and part.node_type is not None and "draw" in part.node_type.reserved
     )
-    scoped = tree.per in ("life", "particle", "hit", "frame") or getattr(tree, "vary", 0.0) > 0 if own else False
-    reads = isinstance(tree, Node) and tree.node_type is not None and "id" in tree.node_type.reserved
-    return bool(scoped) or reads or any(draws_in(part) for part in children(tree))
+    scoped = part.per in ("life", "particle", "hit", "frame") or getattr(part, "vary", 0.0) > 0 if own else False
+    reads = isinstance(part, Node) and part.node_type is not None and "id" in part.node_type.reserved
+    return bool(scoped) or reads
 
 
 def _beside_position(maker: FlatNode, name: str) -> Member | None:

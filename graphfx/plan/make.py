@@ -125,8 +125,9 @@ def make_plan(
 
     `prune=False` keeps what could be left out, to show that it changes no byte: nodes that no output needs, attributes
     that nothing reads, operators that act outside the simulated time. Those that do nothing are left out either way.
-    `measured` attributes are stored of all sources, where they differ. `choices` are what the method `auto` comes to, by
-    source; where there is none, it is one symmetric step for each of the graph's.
+    `measured` attributes are stored of all sources, where they differ, and nothing is kept for pictures, of which none is
+    drawn. `choices` are what the method `auto` comes to, by source; where there is none, it is one symmetric step for each of
+    the graph's.
     """
     schedule = make_schedule(flat, flat.time.precision, prune=prune)
     check_support(flat, schedule.order)
@@ -136,9 +137,10 @@ def make_plan(
     movies = [MoviePlan(node, images[node.references["image"]]) for node in outputs if node.node_type.role == "movie"]
     holders = find_holders(sources)
     check_names(holders, flat)
-    planner = _Planner(flat, list(images.values()), holders, prune, measured, choices or {})
+    drawn = [] if measured else list(images.values())
+    planner = _Planner(flat, drawn, holders, prune, measured, choices or {})
     emitters = {path: planner.emitter(path) for path in reversed(holders)}
-    return Plan(flat, schedule, {path: emitters[path] for path in holders}, list(images.values()), movies)
+    return Plan(flat, schedule, {path: emitters[path] for path in holders}, drawn, [] if measured else movies)
 
 
 class _Planner:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
 
-from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, Node, Ramp, Random, Value, children
+from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, Node, Ramp, Random, Value, children, parts_of
 from graphfx.node import NUMERIC_TYPES
 from graphfx.program import Column, Operand, Uniform
 
@@ -60,25 +60,26 @@ class Scope:
 
 def rate_of(tree: Any, scope: Scope) -> Rate:
     """Return how often a value, or a part of an expression, must be found."""
-    own = Rate.CONSTANT
-    if isinstance(tree, Name):
-        own = Rate.STEP if tree.name in CLOCK_NAMES else Rate.PARTICLE if scope.per_particle(tree.name) else Rate.CONSTANT
-    elif isinstance(tree, Literal) and tree.type == "mesh":
-        own = Rate.PARTICLE
-    elif isinstance(tree, Keys):
-        own = Rate.STEP
-    elif isinstance(tree, Random):
-        own = Rate.CONSTANT if tree.per == "graph" and not tree.vary else Rate.PARTICLE
-    elif isinstance(tree, Node) and tree.node_type is not None:
-        reserved = tree.node_type.reserved
-        if ("draw" in reserved and tree.per != "graph") or "id" in reserved:
-            own = Rate.PARTICLE
-        own = max(
-            own,
-            *(rate_of(Name(name), scope) for name in (*tree.node_type.reads, *reserved) if name not in ("draw", "dt", "id")),
-            Rate.CONSTANT,
-        )
-    return max(own, *(rate_of(part, scope) for part in children(tree)), Rate.CONSTANT)
+    return max(_own_rate(part, scope) for part in parts_of(tree))
+
+
+def _own_rate(part: Any, scope: Scope) -> Rate:
+    """Return how often a part of a value must be found if what it is made of is constant."""
+    if isinstance(part, Name):
+        return Rate.STEP if part.name in CLOCK_NAMES else Rate.PARTICLE if scope.per_particle(part.name) else Rate.CONSTANT
+    if isinstance(part, Literal) and part.type == "mesh":
+        return Rate.PARTICLE
+    if isinstance(part, Keys):
+        return Rate.STEP
+    if isinstance(part, Random):
+        return Rate.CONSTANT if part.per == "graph" and not part.vary else Rate.PARTICLE
+    if isinstance(part, Node) and part.node_type is not None:
+        reserved = part.node_type.reserved
+        if ("draw" in reserved and part.per != "graph") or "id" in reserved:
+            return Rate.PARTICLE
+        names = [name for name in (*part.node_type.reads, *reserved) if name not in ("draw", "dt", "id")]
+        return max((_own_rate(Name(name), scope) for name in names), default=Rate.CONSTANT)
+    return Rate.CONSTANT
 
 
 ALWAYS_CHANGING = frozenset({"time", "frame", "age", "normalized_age", "position", "velocity", "hits"})
@@ -93,35 +94,58 @@ def depends_on_time(tree: Any, changing: frozenset[str] | None = None) -> bool:
     def changes(name: str) -> bool:
         return changing is None or name in ALWAYS_CHANGING or name in changing
 
-    own = isinstance(tree, Keys) or (isinstance(tree, Name) and changes(tree.name))
-    own |= isinstance(tree, (Random, Node)) and tree.per in ("frame", "hit")
-    own |= isinstance(tree, Literal) and tree.type == "mesh"
-    if isinstance(tree, Node) and tree.node_type is not None:
-        own |= any(map(changes, tree.node_type.reads)) or bool({"time", "frame"}.intersection(tree.node_type.reserved))
-    return own or any(depends_on_time(part, changing) for part in children(tree))
+    def alone(part: Any) -> bool:
+        own = isinstance(part, Keys) or (isinstance(part, Name) and changes(part.name))
+        own |= isinstance(part, (Random, Node)) and part.per in ("frame", "hit")
+        own |= isinstance(part, Literal) and part.type == "mesh"
+        if isinstance(part, Node) and part.node_type is not None:
+            own |= any(map(changes, part.node_type.reads)) or bool({"time", "frame"}.intersection(part.node_type.reserved))
+        return own
+
+    return any(map(alone, parts_of(tree)))
 
 
-def identity_of(tree: Any) -> Any:
-    """Return a key that is equal for values that are always equal, wherever they stand; draws differ by their seed."""
+class Identities:
+    """Numbers of values: equal for those that are always equal, wherever they stand; draws differ by their seed.
+
+    A value's own is found once, from the numbers of what it is made of, however often that is used.
+    """
+
+    def __init__(self) -> None:
+        self._numbers: dict[Any, int] = {}
+        self._known: dict[int, tuple[Any, int]] = {}
+        """With each number its value, whose id is no other's as long as it is held here."""
+
+    def of(self, tree: Any) -> int:
+        """Return the number of a value, or a part of an expression."""
+        if id(tree) not in self._known:
+            self._known[id(tree)] = tree, self._number(tree)
+        return self._known[id(tree)][1]
+
+    def _number(self, tree: Any) -> int:
+        if isinstance(tree, Expression):
+            return self.of(tree.tree)
+        key = (*_own_key(tree), *map(self.of, children(tree)))
+        return self._numbers.setdefault(key, len(self._numbers))
+
+
+def _own_key(tree: Any) -> tuple[Any, ...]:
+    """Return what a value is, beside what it is made of."""
     match tree:
-        case Expression():
-            return identity_of(tree.tree)
         case Literal():
             return (lane_type(tree.type), tree.value)
         case Call():
-            return (tree.function, *map(identity_of, tree.arguments))
+            return ("call", tree.function)
         case Name():
             return ("name", tree.name)
         case Keys():
-            return ("keys", tree.type, tree.times, tuple(map(identity_of, tree.values)), tree.interpolation, tree.repeat)
+            return ("keys", tree.type, tree.times, tree.interpolation, tree.repeat)
         case Ramp():
-            points = tuple(map(identity_of, tree.values))
-            return ("ramp", tree.type, tree.positions, points, identity_of(tree.over), tree.interpolation)
+            return ("ramp", tree.type, tree.positions, tree.interpolation)
         case Random():
-            return ("rand", tree.seed, tree.per, tree.vary, identity_of(tree.low), identity_of(tree.high))
+            return ("rand", tree.seed, tree.per, tree.vary)
         case Member():
-            return ("member", tree.index, identity_of(tree.value))
+            return ("member", tree.index)
         case Node():
-            arguments = tuple((name, identity_of(value)) for name, value in tree.arguments)
-            return ("node", id(tree.node_type), tree.seed, tree.per, arguments)
+            return ("node", id(tree.node_type), tree.seed, tree.per, tuple(name for name, _ in tree.arguments))
     return (type(tree).__name__, tree)

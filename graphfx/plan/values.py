@@ -16,7 +16,7 @@ from graphfx.graph.values import Call, Expression, Keys, Literal, Member, Name, 
 from graphfx.math.random import key_of
 from graphfx.plan import arithmetic
 from graphfx.plan.arithmetic import function_for
-from graphfx.plan.rates import CLOCK_NAMES, NOUGHT, Rate, Scope, identity_of, lane_type, literal, rate_of
+from graphfx.plan.rates import CLOCK_NAMES, NOUGHT, Identities, Rate, Scope, lane_type, literal, rate_of
 from graphfx.plan.splines import slopes
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 from graphfx.program.reference import execute
@@ -58,8 +58,9 @@ class ValueWriter:
         self.precision = precision
         self.rate = rate
         self.shared: dict[int, Operand] = {}
-        self.called: dict[Any, tuple[Operand, ...]] = {}
-        self._found: dict[Any, Operand] = {}
+        self.called: dict[int, tuple[Operand, ...]] = {}
+        self.identities = Identities()
+        self._found: dict[int, Operand] = {}
 
     def again(self) -> ValueWriter:
         """Return another like it, which finds again what it has found."""
@@ -69,7 +70,7 @@ class ValueWriter:
 
     def operand(self, tree: Any) -> Operand:
         """Return the operand that holds a value, a part of an expression, or a number; the same for equal ones."""
-        key = identity_of(tree)
+        key = self.identities.of(tree)
         if key not in self._found:
             self._found[key] = self._find(tree)
         return self._found[key]
@@ -244,7 +245,7 @@ class _Lowering:
 
     def _results(self, tree: Node) -> tuple[Operand, ...]:
         """Return all results of a value node: it is called once, however many are used."""
-        key = identity_of(tree)
+        key = self.writer.identities.of(tree)
         if key not in self.writer.called:
             self.writer.called[key] = self._node(tree)
         return self.writer.called[key]
