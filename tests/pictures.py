@@ -13,7 +13,7 @@ import numpy as np
 from PIL import Image
 
 LEVELS = 1
-LARGEST = 20_000
+LARGEST = 30_000
 """Bytes that a picture may take."""
 
 
