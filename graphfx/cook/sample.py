@@ -1,8 +1,8 @@
 """Choose some of a graph's particles, so that each of them moves as it does among all.
 
-Of the n births of an emitter, N are chosen, one of each of N equal parts of their order: the k-th is
+Of the n births of an emitter, N are chosen, one of each of N parts of their order that differ by one at most: the k-th is
 
-    floor((k + u_k) n / N),    u_k in [0, 1) by Philox from the graph's seed, the emitter and k
+    b_k + floor(u_k (b_k+1 - b_k)),    b_k = floor(k n / N),    u_k in [0, 1) by Philox from the graph's seed, the emitter and k
 
 Children are made of chosen parents alone. Where those have more than N, the N of least id stay: an id of a spawned
 particle is itself a hash. So the choice is a function of the graph, of N and of the last frame.
@@ -65,6 +65,7 @@ def ordinals_of(seed: int, path: str, count: int, most: int) -> np.ndarray:
     """Return the births that are chosen of `count`, at most `most` of them, ascending."""
     if count <= most:
         return np.arange(count)
-    parts = np.arange(most)
-    shares = uniform(philox4x32((parts, 0, 0, 0), key_of(seed, path, "sample"))[0])
-    return np.minimum(np.floor((parts + shares) * (count / most)).astype(np.int64), count - 1)
+    borders = np.arange(most + 1) * count // most
+    shares = uniform(philox4x32((np.arange(most), 0, 0, 0), key_of(seed, path, "sample"))[0])
+    sizes = np.diff(borders)
+    return borders[:-1] + np.minimum(np.floor(shares * sizes).astype(np.int64), sizes - 1)

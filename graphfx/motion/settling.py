@@ -166,21 +166,3 @@ def slowed_down(velocity: Any, normal: Any, friction: Any, threshold: Any) -> An
 def put_back(position: Any, normal: Any, distance: Any) -> Any:
     """P - distance N: on the surface."""
     return position - normal * distance
-
-
-@SETTLING.function("float vec3 vec3 float", "bool")
-def is_pressed(distance: Any, normal: Any, way: Any, tolerance: Any) -> Any:
-    """Whether a particle at rest is on the surface still, and its motion does not lead away from it."""
-    return (absolute(distance) <= tolerance * 16.0) & (dot(way, normal) <= tolerance * 4.0)
-
-
-@SETTLING.function("float vec3 vec3 float", "bool")
-def is_glued(distance: Any, normal: Any, way: Any, tolerance: Any) -> Any:
-    """Whether a particle at rest is on the surface still; where its motion leads does not count."""
-    return absolute(distance) <= tolerance * 16.0
-
-
-@SETTLING.function("vec3 vec3", "vec3")
-def ahead(position: Any, way: Any) -> Any:
-    """P + 8 way: beyond the hair's breadth by which it is kept off a sheet or a mesh, if that is where it is led."""
-    return position + way * 8.0

@@ -13,6 +13,8 @@ from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of
 from graphfx.program import Builder, Column, Operand, Uniform
 
+RESOLUTION = {32: 2.0**-20, 64: 2.0**-49}
+"""Eight units in the last place."""
 SEARCH_LIMIT = 60
 """Evaluations in the search for one contact; ten are usual."""
 TRIES = 16

@@ -9,7 +9,7 @@ from typing import Any
 from graphfx.motion import barrier, basic, contact, events, settling
 from graphfx.node import INFINITY
 from graphfx.plan.barriers import Barriers, is_barrier
-from graphfx.plan.contact_search import Candidate, ContactSearch, MomentOf, distance_from, remember
+from graphfx.plan.contact_search import RESOLUTION, Candidate, ContactSearch, MomentOf, distance_from, remember
 from graphfx.plan.crossing import Crossings, way_of
 from graphfx.plan.hits import Fate, Hit, Hits, response_of
 from graphfx.plan.moment import Moment, Moments, State
@@ -26,8 +26,6 @@ FIXED = {
     "slide": {"resilience": 0.0, "friction": 0.0, "rest_speed": INFINITY},
 }
 """Parameters of a surface that its response fixes."""
-RESOLUTION = {32: 2.0**-20, 64: 2.0**-49}
-"""Eight units in the last place."""
 
 
 class Contacts:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 from graphfx.motion import basic, events
-from graphfx.plan.contacts import RESOLUTION, Contacts
+from graphfx.plan.contacts import Contacts
 from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.hits import HIT_TYPES, Fate, Hits, is_vital
 from graphfx.plan.holder import ENDING_ROLES, Holder, moment_of
@@ -56,7 +56,7 @@ class FrameWriter:
         self.endings = [node for node in at_steps if node.node_type.role in ENDING_ROLES]
         self.vital = [node for node in self.settings if is_vital(node, attributes)]
         self.fades = [node for node in at_steps if node.node_type.role == "fade"]
-        self.waking = Waking(motion, Uniform("8 eps", "float", RESOLUTION[precision])) if may_wake(motion) else None
+        self.may_wake = may_wake(motion)
 
     @property
     def acts(self) -> bool:
@@ -87,13 +87,13 @@ class FrameWriter:
             if k == 0 or self.wakes:
                 active = self._moving(builder, resting)
             moment = moments.whole_step(active, k, state)
-            all_of_them = moments.whole_step(builder, k, state) if self.waking is not None else moment
+            all_of_them = moments.whole_step(builder, k, state) if self.may_wake else moment
             if k == 0:
                 self.motion.prepare(all_of_them, state)
             self.motion.prepare_step(all_of_them)
-            if self.waking is not None and resting is not None:
+            if self.may_wake and resting is not None:
                 still = builder.under(builder.call(basic.both, builder.mask, resting, name="at rest"))
-                woken = self.waking.woken(moments.whole_step(still, k, state), state)
+                woken = self._waking(moments, state).woken(still, k, made.time(still, ("end", k)))
                 event = woken if event is None else builder.call(basic.either, event, woken, name="event")
             met = {instant: column for instant, column in captures.items() if instant.step(self.substeps) == k}
             before = active.call(basic.copy_vector, state.position, name="before") if met else None
@@ -113,6 +113,9 @@ class FrameWriter:
         builder.program.rejects = event
         share(made.program)
         return made
+
+    def _waking(self, moments: Moments, state: State) -> Waking:
+        return Waking(self.motion, moments, state, self.precision)
 
     @staticmethod
     def _moving(builder: Builder, resting: Column | None) -> Builder:
@@ -168,8 +171,8 @@ class FrameWriter:
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
             if fate is not None or self.settings:
                 self._own_start(builder, moments, k, state, turn, end)
-            if self.waking is not None and resting is not None:
-                turn.wake(builder, self.waking, k, end)
+            if self.may_wake and resting is not None:
+                turn.wake(builder, self._waking(moments, state), k, end)
             going = turn.going(builder, finish)
             if self.motion.is_brownian:
                 self.motion.prepare_step(moments.own_step(builder.under(going), k, now, now, state))

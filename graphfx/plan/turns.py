@@ -90,7 +90,7 @@ class Turn:
         inside.call(basic.copy_number, finish, into=self.now)
 
     def wake(self, builder: Builder, waking: Waking, k: int, end: Operand) -> None:
-        """Write who of those that are at rest as step `k` starts goes on, since nothing holds it."""
+        """Write who of those that are at rest as step `k` starts goes on in it, from when on nothing holds it."""
         assert self.resting is not None
         start = self.moments.made.time(builder, ("start", k))
         here = builder.call(basic.both, builder.call(events.is_by, self.now, start), builder.call(basic.is_less, start, end))
@@ -98,8 +98,12 @@ class Turn:
         if self.fate is not None:
             here = builder.call(basic.both, here, builder.call(events.is_going_on, self.fate.fate), name="at rest")
         inside = builder.under(here)
-        then = inside.call(basic.copy_number, start, name="then")
-        step = inside.call(basic.difference, self.moments.made.time(builder, ("end", k)), then, name="step")
-        woken = waking.woken(self.moments.own_step(inside, k, then, step, self.state), self.state)
-        builder.under(woken).call(basic.copy_number, start, into=self.now)
+        finish = inside.call(basic.earlier, end, self.moments.made.time(inside, ("end", k)), name="finish")
+        instant = waking.instant(inside, k, start, finish)
+        woken = inside.call(basic.is_less, instant, finish, name="woken")
+        let_go = inside.under(woken)
+        then = let_go.call(basic.copy_number, start, name="then")
+        held_for = let_go.call(basic.difference, instant, then, name="held for")
+        self.fade(self.moments.own_step(let_go, k, then, held_for, self.state), self.state)
+        let_go.call(basic.copy_number, instant, into=self.now)
         builder.under(builder.program.context).call(basic.but_not, self.resting, woken, into=self.resting)

@@ -96,7 +96,10 @@ def test_a_sample_depends_on_the_graph_alone():
 def test_births_are_spread_over_all():
     """One of each of N equal parts of the births is chosen: ascending, none twice, none left out where all fit."""
     chosen = ordinals_of(3, "sky", 1_000_003, 1000)
-    assert len(np.unique(chosen)) == 1000 and (chosen // 1000.003 == np.arange(1000)).all()
+    assert len(np.unique(chosen)) == 1000 and (np.abs(chosen - 1000.003 * np.arange(1000)) < 1002).all()
+    for count in (1001, 1400, 1999, 2001, 2500):
+        few = ordinals_of(3, "sky", count, 1000)
+        assert len(few) == 1000 and (np.diff(few) > 0).all() and few[0] >= 0 and few[-1] < count
     assert ordinals_of(3, "sky", 7, 1000).tolist() == list(range(7))
     assert ordinals_of(3, "sky", 1_000_003, 1000).tolist() != ordinals_of(4, "sky", 1_000_003, 1000).tolist()
 

@@ -103,3 +103,45 @@ def test_a_condition_ends_a_particle_at_rest():
     steps = walk([{"type": "gravity"}, STICKY, kill], (0, 0, 0), (0, 0, 0), frames=26)
     counts = [each.particles["one"].store.count for each in steps]
     assert counts[20] == 1 and counts[-1] == 0
+
+
+@pytest.mark.parametrize(("fps", "substeps"), [(24, 1), (10, 1), (7, 3)])
+def test_it_is_let_go_at_its_instant(fps, substeps):
+    """An applied velocity turns upward at 1.013 s: from then on, and not before, the particle goes with all of it."""
+    let_go = 1.013
+    velocity = {"keys": [[0, [2, -1.5 * let_go, 0]], [2, [2, 1.5 * (2 - let_go), 0]]]}
+    ops = [{"type": "translate", "rate": velocity}, STICKY]
+    found = np.array([states(each)[0][0] for each in walk(ops, (0, 0, 0), (0, 0, 0), fps=fps, substeps=substeps, frames=2 * fps)])
+    after = np.maximum(np.arange(2 * fps + 1) / fps - let_go, 0)
+    np.testing.assert_allclose(found[:, 0], 2 * after, rtol=0, atol=1e-11)
+    np.testing.assert_allclose(found[:, 1], 1.5 * after**2 / 2, rtol=0, atol=1e-11)
+
+
+@pytest.mark.parametrize("lift", [1.0, 100.0])
+def test_a_force_lets_it_go_at_its_instant(lift):
+    """Under gravity that turns round within a frame it rises by jerk t^3 / 6 after, to the error of the middle of steps."""
+    let_go = 0.987
+    pull = {"keys": [[0, [0, -lift * let_go, 0]], [2, [0, lift * (2 - let_go), 0]]]}
+    for fps in (10, 40):
+        found = heights([{"type": "gravity", "acceleration": pull}, STICKY], fps=fps, frames=2 * fps)
+        after = np.maximum(np.arange(2 * fps + 1) / fps - let_go, 0)
+        np.testing.assert_allclose(found, lift * after**3 / 6, rtol=0, atol=lift / fps**2 / 10)
+
+
+def test_a_gust_lets_it_go_at_an_instant_of_the_true_motion():
+    """Two vortices that pass lift a particle: whole steps find where they carry it to order 2, own steps at once."""
+
+    def vortex(name: str, height: float, magnitude: float) -> dict[str, Any]:
+        center = {"keys": [[0, [0, height, -3]], [2, [8, height, -3]]]}
+        return {"type": "vortex", "id": name, "center": center, "axis": [0, 0, 1], "magnitude": magnitude, "tightness": 1.2, "range": 5}
+
+    def place(**time: Any) -> np.ndarray:
+        ops = [vortex("lower", 2, -7), vortex("upper", 5.2, 7), STICKY | {"resilience": 0}]
+        return carried(ops, (4, 0, 0.3), (0, 0, 0), fps=24, frames=30, **time)[0][0]
+
+    true = place(method="adaptive", order=8, tolerance=1e-9)
+    assert np.linalg.norm(true - (4, 0, 0.3)) > 0.5
+    off = [np.linalg.norm(place(method="strang", substeps=count) - true) for count in (2, 4, 16)]
+    assert off[0] > 3 * off[1] > 30 * off[2]
+    for tolerance in (1e-3, 1e-5, 1e-7):
+        assert np.linalg.norm(place(method="adaptive", order=4, tolerance=tolerance) - true) < 0.2 * tolerance
