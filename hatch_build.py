@@ -1,4 +1,4 @@
-"""Build hook: the library of nodes and graphs goes into the wheel as `graphfx/bundled/`.
+"""Build hook: the library of nodes and graphs goes into the wheel as `graphfx/bundled/`, without the gallery's pictures.
 
 An editable install finds it in the checkout instead.
 """
@@ -21,8 +21,9 @@ class LibraryHook(BuildHookInterface):
         if version != "standard":
             return
         root = Path(self.root)
+        gallery = root / "graphs" / "gallery"
         for folder in ("nodes", "graphs"):
-            files = [file for file in sorted((root / folder).rglob("*")) if file.suffix in SUFFIXES]
+            files = [file for file in sorted((root / folder).rglob("*")) if file.suffix in SUFFIXES and file.parent != gallery]
             if not files:
                 raise RuntimeError(f"there is nothing in {folder}/: the wheel would have no library")
             build_data["force_include"] |= {str(file): f"graphfx/bundled/{file.relative_to(root).as_posix()}" for file in files}

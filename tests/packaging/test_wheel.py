@@ -73,11 +73,14 @@ def test_source_distribution_is_complete(built: Path) -> None:
 
 
 def test_wheel_holds_the_library_and_nothing_beside_the_package(built: Path) -> None:
-    """Nodes and graphs lie in graphfx/bundled; nothing called `nodes`, `graphs` or `tests` is installed."""
+    """Nodes and graphs lie in graphfx/bundled, all but the gallery; nothing called `nodes`, `graphs` or `tests` is installed."""
     with zipfile.ZipFile(next(built.glob("*.whl"))) as archive:
         inside = set(archive.namelist())
     assert {name.partition("/")[0].partition("-")[0] for name in inside} == {"graphfx"}
-    assert {f"graphfx/bundled/{name}" for name in names_in_checkout("nodes", "graphs")} <= inside
+    library = {file.relative_to(ROOT) for folder in ("nodes", "graphs") for file in (ROOT / folder).rglob("*")
+               if file.is_file() and "__pycache__" not in file.parts}
+    wanted = {f"graphfx/bundled/{file.as_posix()}" for file in library if file.parent != Path("graphs", "gallery")}
+    assert {name for name in inside if name.startswith("graphfx/bundled/")} == wanted
     assert names_in_checkout("graphfx") <= inside
 
 
