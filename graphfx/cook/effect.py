@@ -24,9 +24,10 @@ from graphfx.cook.executor import BlockExecutor, Executor, ReferenceExecutor
 from graphfx.cook.far import FarAway
 from graphfx.cook.files import check_files, file_name
 from graphfx.cook.limits import CookLimits, check_disk, check_limits
+from graphfx.cook.lost import Lost
 from graphfx.cook.memory import is_scarce, return_what_is_freed
 from graphfx.cook.movies import KINDS, Open, movie_file, open_movies
-from graphfx.cook.pilot import planned
+from graphfx.cook.pilot import choices_for
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer
 from graphfx.errors import OutputError, Problem, UsageError
@@ -34,6 +35,7 @@ from graphfx.graph.flat import FlatGraph
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
 from graphfx.plan.make import Plan, make_plan
+from graphfx.plan.method import Choice
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -43,8 +45,9 @@ class FrameReport:
     """What is told of a cooked frame.
 
     `dropped` particles could not be drawn, as numbers of theirs are not finite; `restless` ones met surfaces so often
-    within one step that they were brought to rest, `failed` ones found no step short enough to go on (both counted since
-    the start). `faults` tell the stream and the attribute of those that were dropped; `warnings` are told once in a cook.
+    within one step that they were brought to rest, `failed` ones found no step short enough to go on, and `lost` counts steps
+    that were not taken, as they lead beyond the numbers (all counted since the start). `faults` tell the stream and the
+    attribute of those that were dropped; `warnings` are told once in a cook.
     """
 
     frame: int
@@ -56,13 +59,17 @@ class FrameReport:
     files: tuple[Path, ...]
     faults: tuple[tuple[str, str, int], ...] = ()
     warnings: tuple[Problem, ...] = ()
+    lost: int = 0
 
 
 class Effect:
-    """A flattened graph and its plan; `kinds` say what becomes of the pictures of a movie, by the suffix of its file."""
+    """A flattened graph and its plan; `kinds` say what becomes of the pictures of a movie, by the suffix of its file.
 
-    def __init__(self, flat: FlatGraph, kinds: Mapping[str, Open] = KINDS):
-        self.flat, self.kinds = flat, kinds
+    `choices` of how motion is computed are tried where they are not known.
+    """
+
+    def __init__(self, flat: FlatGraph, kinds: Mapping[str, Open] = KINDS, choices: Mapping[str, Choice] | None = None):
+        self.flat, self.kinds, self._known = flat, kinds, choices
 
     @cached_property
     def draft(self) -> Plan:
@@ -70,9 +77,14 @@ class Effect:
         return make_plan(self.flat)
 
     @cached_property
+    def choices(self) -> Mapping[str, Choice]:
+        """How motion is computed where that must be tried, by source."""
+        return self._known if self._known is not None else choices_for(self.draft)
+
+    @cached_property
     def plan(self) -> Plan:
         """What will run."""
-        return planned(self.flat, self.draft)
+        return make_plan(self.flat, choices=self.choices) if self.choices else self.draft
 
     @property
     def frames(self) -> list[int]:
@@ -116,7 +128,7 @@ class Effect:
             return
         rendered = any(image.node.node_type.role == "image" for image in self.plan.images)
         warming = warm.start(any(image.polygons for image in self.plan.images)) if rendered else None
-        writer, far = Writer(self.plan, threads, limits.memory), FarAway()
+        writer, far, lost = Writer(self.plan, threads, limits.memory), FarAway(), Lost()
         pixels = sum(math.prod(image.size) for image in self.plan.images)
         with open_movies(self.plan, out, self.kinds) as movies, ThreadPoolExecutor(1, thread_name_prefix="graphfx-write") as pool:
             waiting: tuple[FrameReport, list[Future[None]]] | None = None
@@ -142,7 +154,7 @@ class Effect:
                 jobs = [pool.submit(writer.write, stills[image.node.path], image, films[image.node.path], frame)
                         for image in self.plan.stills]
                 jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
-                warnings = tuple(far.warnings(simulation, frame))
+                warnings = (*far.warnings(simulation, frame), *lost.warnings(simulation, frame))
                 waiting = self._report(frame, simulation, list(films.values()), list(stills.values()), warnings), jobs
                 del films  # each is let go of as soon as it is written
             if waiting is not None:
@@ -163,6 +175,7 @@ class Effect:
             tuple(files),
             tuple(fault for film in films for fault in film.faults),
             warnings,
+            sum(each.lost for each in particles),
         )
 
     def _checked(self, frames: list[int]) -> list[int]:

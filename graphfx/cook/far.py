@@ -31,13 +31,13 @@ class FarAway:
         for path, particles in simulation.particles.items():
             if path in self.told or not particles.alive or not particles.has("position"):
                 continue
-            place = particles.value("position")
-            farthest = max(_farthest(np.asarray(part)) for part in place)
+            farthest = max(_farthest(np.asarray(part)) for part in particles.value("position"))
             if farthest >= FAR:
                 self.told.add(path)
                 apart = float(np.spacing(np.float32(farthest)))
+                place = f"{farthest:,.0f}" if farthest < 1e12 else f"{farthest:.3g}"
                 message = (
-                    f"from frame {frame} on there are particles at coordinates of {farthest:,.0f} m, where 32 bits tell places "
+                    f"from frame {frame} on there are particles at coordinates of {place} m, where 32 bits tell places "
                     f"{apart:g} m apart at best; add \"precision\": 64 to `time`, or bring the scene nearer to the origin"
                 )
                 yield Problem(message, particles.plan.node.location, f"nodes.{path}")

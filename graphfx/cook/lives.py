@@ -141,6 +141,8 @@ class Lives:
         self._run_rounds(made, particles, interval, rows, by_place, kept)
         if "unfinished" in by_place:
             particles.unfinished += int(by_place["unfinished"][0][:count].sum())
+        if "lost" in by_place:
+            particles.lost += int(by_place["lost"][0][:count].sum())
         if "fate" not in by_place:
             return Ends(np.zeros(count), end, begun, np.full(count, -1.0))
         hit = {name: arrays for name, arrays in by_place.items() if name.startswith("hit.")}
@@ -266,7 +268,7 @@ class Lives:
     def _carry_copies(self, particles: Particles, interval: Interval, rows: Any, begin: Any, end: np.ndarray) -> np.ndarray:
         """Carry copies of particles to instants; return which are still in the same life then."""
         alive, going = np.ones(len(rows), bool), np.arange(len(rows))
-        begin, begun, unfinished = begin.copy(), np.zeros(len(rows)), particles.unfinished
+        begin, begun, counted = begin.copy(), np.zeros(len(rows)), (particles.unfinished, particles.lost)
         for _ in range(MOST_TURNS):
             if not len(going):
                 break
@@ -274,7 +276,7 @@ class Lives:
             alive[going[(ends.fate > 0) & (ends.fate != HELD)]] = False
             begin[going], begun[going] = ends.ended, ends.begun
             going = going[ends.fate == HELD]
-        particles.unfinished = unfinished
+        particles.unfinished, particles.lost = counted
         if particles.plan.mortal:
             alive &= particles.death(rows) >= interval.start + end
         return alive

@@ -66,7 +66,8 @@ class Particles:
     """One source's particles.
 
     `carried` counts particles and frames in which they took steps of their own, those at rest left out, `turns` those
-    steps, refused ones too, `failed` those who found none short enough, and `unfinished` who met surfaces too often.
+    steps, refused ones too, `failed` those who found none short enough, `unfinished` who met surfaces too often, and `lost`
+    the steps not taken, as they lead beyond the numbers.
     `endings` are of the rows whose life ended in the interval before the frame; they are removed as the next begins.
     `beginnings` are of the rows that began a life in it.
     Pictures look back to `since` [s]: `bends` are hits after that, and `past` holds those whose lives ended after it and
@@ -80,6 +81,7 @@ class Particles:
     endings: Endings = field(default_factory=Endings)
     unfinished: int = 0
     failed: int = 0
+    lost: int = 0
     turns: int = 0
     carried: int = 0
     arrivals: list[Arrivals] = field(default_factory=list)

@@ -70,9 +70,9 @@ def adaptive(order: int, tolerance: float) -> Setting:
     return Setting("adaptive", Scheme(COUNTS[order], tolerance), f"order {order} by extrapolation, steps of each particle's own")
 
 
-def planned(flat: FlatGraph, draft: Plan | None = None) -> Plan:
+def planned(flat: FlatGraph) -> Plan:
     """Return the plan of a graph; where its method is `auto` and no motion is exact, after trying."""
-    plan = draft or make_plan(flat)
+    plan = make_plan(flat)
     choices = choices_for(plan)
     return make_plan(flat, choices=choices) if choices else plan
 

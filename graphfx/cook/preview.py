@@ -71,18 +71,22 @@ def is_placed(flat: FlatGraph) -> bool:
     return any(node.node_type.role in PICTURES and node.enabled for node in flat.nodes.values())
 
 
-def camera_placed(flat: FlatGraph, frames: Iterable[int], threads: int) -> FlatGraph:
-    """Return a preview of a graph without a picture, with its camera where it sees the particles of these frames."""
+def camera_placed(effect: Effect, frames: Iterable[int], threads: int) -> Effect:
+    """Return a preview of a graph without a picture, with its camera where it sees the particles of these frames.
+
+    Nothing is tried anew: a camera changes no motion.
+    """
+    flat = effect.flat
     picture = next(node for node in flat.nodes.values() if node.node_type.role == "preview")
     camera = flat.nodes[picture.references["camera"]]
     width, height = plain_value(picture.arguments["size"])
-    low, high = _box(Effect(flat), list(frames), threads)
+    low, high = _box(effect, list(frames), threads)
     lens = float(plain_value(camera.arguments["lens"]))
     position = _standpoint(low, high, FILM_WIDTH / 2 / lens, height / width)
     target = (low + high) / 2
     placed = {"position": _literal("point", tuple(position.tolist())), "target": _literal("point", tuple(target.tolist()))}
     nodes = flat.nodes | {camera.path: replace(camera, arguments=camera.arguments | placed)}
-    return replace(flat, nodes=nodes)
+    return Effect(replace(flat, nodes=nodes), effect.kinds, effect.choices)
 
 
 def _box(effect: Effect, frames: list[int], threads: int) -> tuple[np.ndarray, np.ndarray]:

@@ -12,7 +12,7 @@ from graphfx.store.processors import BLOCK
 
 MOST_ROUNDS = 256
 """Runs of up to 64 steps that a particle may take in one frame; who needs more is reported, and stays where it came to."""
-TOLD = {"unfinished", "fate", "ended", "begun", "surface", "contacts", "turns", "waiting", "failed", "knots"}
+TOLD = {"unfinished", "fate", "ended", "begun", "surface", "contacts", "turns", "waiting", "failed", "lost", "knots"}
 """What programs of one's own time tell, besides hits and the places of knots."""
 ANEW = {"turns", "waiting", "failed"}
 """What every run tells of itself alone."""

@@ -99,7 +99,7 @@ class Trials:
                     begun += time.process_time() - paused
         made.seconds = time.process_time() - begun
         made.restless = sum(particles.unfinished for particles in simulation.particles.values())
-        made.failures = {path: particles.failed for path, particles in simulation.particles.items()}
+        made.failures = {path: particles.failed + particles.lost for path, particles in simulation.particles.items()}
         moving = {path: each for path, each in simulation.particles.items() if each.plan.own is not None}
         made.work = {path: self._evaluations(particles) for path, particles in moving.items()}
         made.evaluations = float(np.mean(list(made.work.values()))) if moving else 0.0

@@ -61,7 +61,8 @@ class GraphReader:
             first, last = self._frames(item.value["frames"])
             given.update(first=first, last=last)
         known = {field.name for field in fields(TimeSettings)}
-        self.graph.time = TimeSettings(**{key: value for key, value in given.items() if key in known})
+        locations = {key: given_item.location for key, given_item in item.entries()}
+        self.graph.time = TimeSettings(**{key: value for key, value in given.items() if key in known}, locations=locations)
 
     def _frames(self, item: Item) -> tuple[int, int]:
         default = TimeSettings()

@@ -6,6 +6,7 @@ Paths are instance paths: `storm` for a node, `fall/spiral` for operator `spiral
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from graphfx.errors import NOWHERE, Location
@@ -74,6 +75,8 @@ class TimeSettings:
     order: int = 6
     tolerance: float = 1e-3
     precision: int = 32
+    locations: Mapping[str, Location] = field(default_factory=dict, compare=False, repr=False)
+    """Where what is given stands, by key."""
 
 
 @dataclass

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from graphfx.math import Vec3, maximum, minimum
 from graphfx.program import Bundle
 
 MATRIX = Bundle("matrix")
@@ -70,14 +69,8 @@ def propagators(matrix: np.ndarray, time: float) -> np.ndarray:
 
 @MATRIX.function("vec3 vec3 vec3 vec3 vec3 vec3 vec3 vec3", "vec3")
 def product(first: Any, second: Any, ax: Any, ay: Any, az: Any, bx: Any, by: Any, bz: Any) -> Any:
-    """(A B) (first, second), a matrix of 3 x 6 given by its columns; no component is beyond 1e36."""
-    found = (ax * first.x + ay * first.y + az * first.z) + (bx * second.x + by * second.y + bz * second.z)
-    return Vec3(within(found.x), within(found.y), within(found.z))
-
-
-def within(value: Any) -> Any:
-    """A number held within 1e36."""
-    return minimum(maximum(value, -1e36), 1e36)
+    """(A B) (first, second), a matrix of 3 x 6 given by its columns."""
+    return (ax * first.x + ay * first.y + az * first.z) + (bx * second.x + by * second.y + bz * second.z)
 
 
 @MATRIX.function("float float float", "bool")

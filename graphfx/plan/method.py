@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from graphfx.errors import GraphError, Problem
+from graphfx.errors import NOWHERE, GraphError, Problem
 from graphfx.graph.flat import FlatGraph, TimeSettings
 from graphfx.motion.clock import most_cells
 from graphfx.plan.movers import INNER_ROLES, Mover, base_of
@@ -78,9 +78,8 @@ def choose_method(movers: list[Mover], flat: FlatGraph, drifts: bool, chosen: Ch
         what = "one flow, which carries by the velocity too" if inner[0].carries else "one flow and nothing else"
         return Choice("exact", f"{what} ({inner[0].node.node_type.name}): one exact step")
     if asked == "exact":
-        raise GraphError(
-            Problem(f"there is no exact solution for {names} together; choose 'auto' or 'adaptive'", path="time.method")
-        )
+        message = f"there is no exact solution for {names} together; choose 'auto' or 'adaptive'"
+        raise GraphError(Problem(message, flat.time.locations.get("method", NOWHERE), "time.method"))
     order_one = _of_order_one(movers)
     base = base_of(inner) if drifts else None
     around = f", around the exact orbit about {base.node.path}" if base is not None else ""

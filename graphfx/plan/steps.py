@@ -18,6 +18,7 @@ from graphfx.plan.knots import Knots
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.moment import Moment, Moments, State
 from graphfx.plan.motion import Motion
+from graphfx.plan.overflow import Guard, beyond, may_overflow
 from graphfx.plan.pacing import ALLOWED, MOST_TURNS, Pacing
 from graphfx.plan.setting import Setting, under_conditions
 from graphfx.plan.sharing import share
@@ -57,6 +58,7 @@ class FrameWriter:
         self.vital = [node for node in self.settings if is_vital(node, attributes)]
         self.fades = [node for node in at_steps if node.node_type.role == "fade"]
         self.may_wake = may_wake(motion)
+        self.guarded = may_overflow(motion)
 
     @property
     def acts(self) -> bool:
@@ -107,6 +109,8 @@ class FrameWriter:
                 active.note = "motion blur"
                 times = [made.time(active, name) for name in (("start", k), ("end", k), instant.time)]
                 active.call(basic.capture, before, before, state.position, *times, into=column)
+        if self.guarded and (gone := beyond(builder, state)) is not None:
+            event = gone if event is None else builder.call(basic.either, event, gone, name="event")
         self.store(builder, list(captures.values()))
         if resting is not None and self.wakes:
             builder.store("resting", resting)
@@ -165,7 +169,8 @@ class FrameWriter:
         fate = self._fate(builder)
         self.motion.prepare(moments.own_step(builder, 0, now, now, state), state)
         contacts = Contacts(self.motion, self.precision, self.hits, moments, fate)
-        turn = Turn(contacts, self.fade, moments, state, now, resting, captures, knots, fate, pacing)
+        guard = self._guard(builder, pacing)
+        turn = Turn(contacts, self.fade, moments, state, now, resting, captures, knots, fate, pacing, guard)
         unfinished: Column | None = None
         for k in range(self.substeps):
             finish = builder.call(basic.earlier, end, made.time(builder, ("end", k)), name="finish")
@@ -193,10 +198,18 @@ class FrameWriter:
         made.program.stores |= knots.stores if knots is not None else {}
         made.program.stores |= pacing.stores | {"ended": now} if pacing is not None else {}
         made.program.stores |= {"unfinished": unfinished} if unfinished is not None else {}
+        made.program.stores |= {"lost": guard.lost} if guard is not None and pacing is None else {}
         if fate is not None:
             made.program.stores |= {"fate": fate.fate, "ended": now, "surface": fate.surface, "begun": fate.begun, **fate.hit}
         share(made.program)
         return made
+
+    def _guard(self, builder: Builder, pacing: Pacing | None) -> Guard | None:
+        """Return what keeps particles within the numbers: errors of steps do, but at surfaces."""
+        if not self.guarded or (pacing is not None and not self.motion.of("surface")):
+            return None
+        made = Guard.begin(builder, self.motion.keeps)
+        return made if pacing is None else Guard(pacing.failed, made.keeps)
 
     def _parts(self, builder: Builder, made: FrameProgram, finish: Column) -> Iterator[Column]:
         """Write the ends of the parts of a step that ends at `finish`: where operators begin to act or end, and its own."""

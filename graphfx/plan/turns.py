@@ -9,6 +9,7 @@ from graphfx.plan.contacts import Contacts
 from graphfx.plan.hits import Fate
 from graphfx.plan.knots import Knots
 from graphfx.plan.moment import Moment, Moments, State
+from graphfx.plan.overflow import Guard
 from graphfx.plan.pacing import Pacing
 from graphfx.plan.waking import Waking
 from graphfx.program import Builder, Column, Operand, Uniform
@@ -18,7 +19,7 @@ class Turn:
     """One turn of the loop in own time: go to the end of the step, or to the first contact on the way.
 
     `captures` are the columns of places at instants, with their times; `knots` take the hits. With `pacing` a turn is one
-    step of the particle's own, which may be refused.
+    step of the particle's own, which may be refused. With a `guard` one that leads beyond the numbers is not taken.
     """
 
     def __init__(
@@ -33,8 +34,9 @@ class Turn:
         knots: Knots | None,
         fate: Fate | None,
         pacing: Pacing | None = None,
+        guard: Guard | None = None,
     ):
-        self.pacing = pacing
+        self.pacing, self.guard = pacing, guard
         self.moments, self.state = moments, state
         self.contacts, self.fade = contacts, fade
         self.now, self.resting, self.fate = now, resting, fate
@@ -58,6 +60,8 @@ class Turn:
         step = step if self.pacing is None else self.pacing.limit(inner, step)
         before = inner.call(basic.copy_vector, state.position, name="before") if self.captures else None
         then = inner.call(basic.copy_number, now, name="then")
+        whole = inner.call(basic.copy_number, step, name="whole step") if self.guard is not None else step
+        first = self.guard.start(inner, state) if self.guard is not None else {}
 
         def step_of(builder: Builder, dt: Column) -> Moment:
             return moments.own_step(builder, k, then, dt, state, cell)
@@ -66,6 +70,8 @@ class Turn:
             self.fade(moments.own_step(builder, k, then, dt, state), state)
 
         met = self.contacts.own_step(inner, step_of, state, step, self.resting, fade, self.pacing)
+        if self.guard is not None:
+            self.guard.end(inner, state, first, step, whole)
         inner.call(basic.sum_of_numbers, then, step, into=now)
         reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
         inner.under(reached).call(basic.copy_number, finish, into=now)

@@ -67,10 +67,10 @@ class Candidate:
         return replace(flat, time=self.time(flat.time))
 
     def document(self) -> dict[str, object]:
-        """Return the keys of `time` in a graph that ask for this setting."""
-        found: dict[str, object] = {"method": self.family.method, "precision": self.precision}
+        """Return the keys of `time` in a graph that ask for this setting, whatever others it has."""
+        found: dict[str, object] = {"method": self.family.method, "precision": self.precision, "substeps": self.steps}
         if self.tolerance is None:
-            return found | {"substeps": self.steps}
+            return found
         return found | {"tolerance": self.tolerance} | ({"order": self.family.order} if self.family.order else {})
 
 

@@ -49,6 +49,9 @@ def advice(study: Study) -> Advice:
     if cheaper:
         next_ = max(cheaper, key=cost)
         reason += f"; with {next_.candidate.setting} they would be {length(next_.errors.p95)}"
+    if best.candidate.tolerance not in (None, tolerance):
+        reason += (f"; its tolerance of {best.candidate.setting} is what each particle's steps may err in a second, and takes "
+                   f"the place of the graph's, which these errors were held to")
     return Advice(best, reason)
 
 

@@ -1,7 +1,8 @@
 """Stability: every operator at the ends of its declared ranges, alone and in pairs, at steps from 1e-12 to 1e6 s.
 
-Particles of all sizes of place and speed go two steps. What comes out is finite, or grows beyond the numbers (infinite), or
-is no number though nothing of that particle is infinite (a bug), or is refused with a message.
+Particles of all sizes of place and speed go two steps. What comes out is finite, or given up and reported, or is refused with
+a message. Who is given up within a millisecond has not grown so far: an operator is wrong there, as where a number that is
+none is kept (a bug).
 """
 
 from __future__ import annotations
@@ -35,11 +36,13 @@ GREAT = 1e6
 PLACES = (0.0, 1e-30, 1e-3, 1.0, 1e6)
 SPEEDS = (0.0, 1e-30, 1e-3, 1.0, 1e5)
 DIRECTIONS = ((1.0, 0.0, 0.0), (0.36, -0.48, 0.8))
+SHORT = 1e-3
+"""Steps in which nothing sound grows beyond the numbers [s]."""
 MOST_CELLS = 100
 """Cells of noise that a step may meet here; planning for more takes long."""
 ROLES = (*MOVING_ROLES, "assign")
 NAMES = {"finite": "finite", "infinite": "grows beyond the numbers", "failed": "given up, and reported", "refused": "refused",
-         "not_tried": "not tried", "bug": "no number"}
+         "not_tried": "not tried", "bug": "beyond the numbers at once"}
 """What can come out, the better first."""
 
 
@@ -197,7 +200,12 @@ def _follow(simulation: Simulation, case: Case) -> None:
             return
         known = np.abs(every[:3][np.isfinite(every[:3])])
         case.greatest = max(case.greatest, float(known.max(initial=0.0)))
-    case.outcome = "infinite" if infinite.any() else "failed" if particles.failed or particles.unfinished else "finite"
+    why = [reason for count, reason in ((particles.lost, "a step would lead beyond the numbers"),
+                                        (particles.failed, "no step was short enough"),
+                                        (particles.unfinished, "too many contacts in a step")) if count]
+    wrong = particles.lost and case.step <= SHORT
+    case.outcome = "bug" if wrong else "infinite" if infinite.any() else "failed" if why else "finite"
+    case.message = ", ".join(why)
 
 
 def cases_of(library: Library, pairs: bool = True) -> tuple[list[tuple[Ends, ...]], dict[str, str]]:

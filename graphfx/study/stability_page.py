@@ -28,7 +28,7 @@ FIELDS = {
     "runs[].precision": "bits of a number",
     "runs[].step": "length of a step [s]",
     "runs[].outcome": "one of outcomes",
-    "runs[].message": "of a refusal",
+    "runs[].message": "of a refusal, or why particles were given up",
     "greatest": "the farthest finite place that a particle came to, by operators together [m]",
     "stopped": "whether it was stopped before its end",
 }

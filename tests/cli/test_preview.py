@@ -13,6 +13,7 @@ from PIL import Image, ImageSequence
 
 from graphfx.cook.effect import Effect
 from graphfx.cook.pictures import camera_at
+from graphfx.cook.pilot import Pilot
 from graphfx.cook.preview import camera_placed, preview_of
 from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
@@ -119,14 +120,27 @@ def test_camera_holds_what_it_should() -> None:
         nodes = {"sky": {"type": "emit", "count": 400, "set": {
             "position": {"in_box": {"min": low.tolist(), "max": (low + extent).tolist()}}}}}
         flat = flatten(document_of({"graphfx": 1, "time": {"frames": [1, 2]}, "nodes": nodes}), LIBRARY)
-        placed = camera_placed(preview_of(flat, LIBRARY, "a.webp"), [1, 2], 1)
-        effect = Effect(placed)
+        effect = camera_placed(Effect(preview_of(flat, LIBRARY, "a.webp")), [1, 2], 1)
         position = effect.simulate(2)["sky"]["position"].astype(float)
         x, y, depth = camera_at(effect.plan.images[0].camera, 0.0, 2).screen_matrix(640, 360) @ np.c_[position, np.ones(400)].T
         assert (depth > 0).all()
         across, down = x / depth / 640, y / depth / 360
         assert ((across > 0) & (across < 1) & (down > 0) & (down < 1)).mean() > 0.97
         assert max(np.ptp(across), np.ptp(down)) > 0.6
+
+
+def test_motion_is_tried_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a camera is looked for, the same choice of how to move holds for the picture: nothing is tried twice."""
+    ops = [{"type": "vortex"}, {"type": "vortex", "id": "other", "center": [1, 0, 0]}]
+    sky = {"type": "emit", "count": 9, "set": {"position": {"in_box": {}}}}
+    nodes = {"sky": sky, "act": {"type": "stack", "from": "sky", "ops": ops}}
+    flat = flatten(document_of({"graphfx": 1, "time": {"frames": [1, 3]}, "nodes": nodes}), LIBRARY)
+    tried: list[object] = []
+    monkeypatch.setattr("graphfx.cook.pilot.Pilot.of", lambda *given, make=Pilot.of: tried.append(given) or make(*given))
+    effect = camera_placed(Effect(preview_of(flat, LIBRARY, "a.webp")), [1, 2, 3], 1)
+    known, anew = effect.plan.emitters["sky"], Effect(effect.flat).plan.emitters["sky"]
+    assert len(tried) == 2, "one of them by the last line"
+    assert (known.method, known.reason) == (anew.method, anew.reason)
 
 
 def test_plan_of_a_preview_has_no_radius() -> None:

@@ -56,10 +56,11 @@ def sample() -> Stability:
     return stability(LIBRARY, every=250)
 
 
-def test_no_sampled_operator_makes_a_number_of_nothing(sample):
-    """Of a sample of all operators, alone and in pairs, none makes no number of numbers at steps of up to a second in 64 bits."""
+def test_no_sampled_operator_leaves_the_numbers_untold(sample):
+    """Of a sample of all operators, alone and in pairs, every run is finite, or given up with its reason, or not made."""
     assert len(sample.cases) > 80
-    assert [case.what for case in sample.cases if case.outcome == "bug" and case.step <= 1 and case.precision == 64] == []
+    assert {case.outcome for case in sample.cases} <= {"finite", "failed", "refused", "not_tried"}
+    assert all(case.message for case in sample.cases if case.outcome != "finite")
 
 
 def test_every_operator_that_moves_is_tried():
@@ -85,19 +86,22 @@ def test_places_and_speeds_of_all_sizes():
     assert {float(f"{math.hypot(*each):.6g}") for each in velocity} == {0.0, 1e-30, 1e-3, 1.0, 1e5}
 
 
-@pytest.mark.parametrize("formula, wanted", [
-    ("position * strength", "finite"),
-    ("position * sqrt(strength)", "finite"),
-    ("position * sqrt(-strength)", "bug"),
-    ("position * (strength * 1e300 * 1e300)", "bug"),
-    ("Vec3(1.0, 1.0, 1.0) * (strength * 1e308) * 1e308", "infinite"),
+@pytest.mark.parametrize("formula, step, wanted", [
+    ("position * strength", 1 / 24, "finite"),
+    ("position * sqrt(strength)", 1 / 24, "finite"),
+    ("position * sqrt(-strength)", 1 / 24, "failed"),
+    ("position * sqrt(-strength)", 1e-3, "bug"),
+    ("position * (strength * 1e300 * 1e300)", 1e-6, "bug"),
+    ("Vec3(1.0, 1.0, 1.0) * (strength * 1e308) * 1e308", 1.0, "failed"),
 ])
-def test_a_doubtful_node_is_found_out(tmp_path: Path, formula, wanted):
-    """The root of a negative number and infinity times zero are bugs; what is sound is finite, and what is infinite is told."""
+def test_a_doubtful_node_is_found_out(tmp_path: Path, formula, step, wanted):
+    """What is sound is finite; the root of a negative number, infinity, and that times zero are given up, and wrong in a step
+    so short that nothing grows in it."""
     (tmp_path / "nodes" / "operators").mkdir(parents=True)
     (tmp_path / "nodes" / "operators" / "doubtful.py").write_text(NODE.format(formula=formula), encoding="utf-8")
     library = Library(library_roots([tmp_path]))
-    assert outcome_of([defaults("doubtful", library)], library=library).outcome == wanted
+    case = outcome_of([defaults("doubtful", library)], step=step, library=library)
+    assert (case.outcome, case.message) == (wanted, "" if wanted == "finite" else "a step would lead beyond the numbers")
 
 
 def test_a_refusal_keeps_its_message():

@@ -77,7 +77,7 @@ def command(context: click.Context, source: str, frames: str | None, columns: in
     cook.check()
     with cook.telling(context, ["contact-sheet", source, "--out", str(file), "--columns", str(columns)]):
         if not placed:
-            cook.effect = _effect(camera_placed(shown, wanted, threads or available_threads()), wanted, columns)
+            cook.effect = camera_placed(effect, wanted, threads or available_threads())
         cook.run()
 
 

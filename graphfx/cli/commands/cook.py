@@ -139,7 +139,7 @@ class Cook:
                 progress.frame(frame)
                 if self.as_json:
                     self._print({"frame": frame.frame, "particles": frame.particles, "fragments": frame.fragments,
-                                 "dropped": frame.dropped, "restless": frame.restless, "failed": frame.failed,
+                                 "dropped": frame.dropped, "restless": frame.restless, "failed": frame.failed, "lost": frame.lost,
                                  "files": list(map(str, frame.files)), **({"warnings": told} if told else {})})
 
             listeners.append(progress.compiling)

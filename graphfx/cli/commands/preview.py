@@ -52,6 +52,6 @@ def command(context: click.Context, graph: str, frames: str | None, out: str | N
     cook.check()
     with cook.telling(context, ["preview", graph, "--out", str(file)]):
         if not is_placed(flat):
-            cook.effect = Effect(camera_placed(shown, wanted, threads or available_threads()))
+            cook.effect = camera_placed(effect, wanted, threads or available_threads())
             click.echo("the graph has no image: its particles are seen by a camera that holds them all", err=True)
         cook.run()
