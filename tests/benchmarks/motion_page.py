@@ -62,7 +62,7 @@ def processor() -> str:
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.exists() else []
     models = [line.split(":")[1].strip() for line in lines if "model name" in line]
-    return f"{models[0] if models else platform.machine()}, {os.cpu_count()} virtual cores, one of them used"
+    return f"{models[0] if models else platform.machine()}, {os.cpu_count()} virtual cores"
 
 
 def versions() -> str:
@@ -112,7 +112,8 @@ def page(rows: list[Row], shares: list[str]) -> str:
         "24 frames a second and chooses for itself, once for a graph, in the seconds told. Settings are tried from the loosest",
         "until one took its particles (2048, or fewer of the slow ones) more than a second of CPU time; then it says: given up.",
         "",
-        f"{datetime.date.today()}; {processor()}; {versions()}; load {os.getloadavg()[0]:.1f} at the end (other work beside).",
+        f"{datetime.date.today()}; {processor()}, one of them used; {versions()}; load {os.getloadavg()[0]:.1f} at the end (other "
+        "work beside).",
         "",
         *aims(rows),
     ]

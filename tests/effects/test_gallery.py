@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from PIL import Image
 
@@ -14,6 +16,12 @@ from .goldens import EFFECTS, data_of
 def test_readme_shows_every_effect() -> None:
     """The README's gallery is what the effects say of themselves; `python tests/effects/gallery.py --text` writes it."""
     assert part_of(README.read_text(encoding="utf-8"), "gallery") == text(EFFECTS)
+
+
+def test_readme_says_what_every_effect_takes() -> None:
+    """The README's table has a row for each effect; `python tests/benchmarks/effects.py --page NAME` measures and writes it."""
+    table = part_of(README.read_text(encoding="utf-8"), "effects")
+    assert re.findall(r"^\| (\w+) \| [\d,]+ \| \d+ of \d+ \|", table, re.MULTILINE) == list(EFFECTS)
 
 
 def test_every_picture_is_of_an_effect() -> None:
