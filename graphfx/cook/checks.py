@@ -31,7 +31,7 @@ def problems_before(plan: Plan) -> list[Problem]:
         try:
             check()
         except GraphfxError as error:
-            problems += error.problems
+            problems += [problem for problem in error.problems if problem not in problems]
     return problems
 
 

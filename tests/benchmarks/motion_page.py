@@ -112,8 +112,8 @@ def page(rows: list[Row], shares: list[str]) -> str:
         "24 frames a second and chooses for itself, once for a graph, in the seconds told. Settings are tried from the loosest",
         "until one took its particles (2048, or fewer of the slow ones) more than a second of CPU time; then it says: given up.",
         "",
-        f"{datetime.date.today()}; {processor()}, one of them used; {versions()}; load {os.getloadavg()[0]:.1f} at the end (other "
-        "work beside).",
+        f"{datetime.date.today()}; {processor()}, one of them used; {versions()}; load {os.getloadavg()[0]:.1f} at the end "
+        "(other work beside).",
         "",
         *aims(rows),
     ]

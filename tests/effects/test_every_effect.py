@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from functools import cache
 from pathlib import Path
 
@@ -35,6 +36,15 @@ def test_canonical_and_documented(name: str) -> None:
 def test_nothing_is_wrong(name: str) -> None:
     """`graphfx check` finds nothing wrong."""
     assert problems_of(str(EFFECTS[name]), ()) == []
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_libraries_are_told(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where no library for meshes or letters is installed an effect needs none, or says once what brings it."""
+    for library in ("trimesh", "fontTools", "mapbox_earcut"):
+        monkeypatch.setitem(sys.modules, library, None)
+    told = [problem.message.partition("install it by: ")[2] for problem in problems_of(str(EFFECTS[name]), ())]
+    assert len(set(told)) == len(told) and set(told) <= {'pip install "graphfx[mesh]"', 'pip install "graphfx[text]"'}
 
 
 @pytest.mark.parametrize("name", EFFECTS)
