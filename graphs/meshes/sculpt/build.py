@@ -15,7 +15,7 @@ import numpy as np
 import surface
 
 FOLDER = Path(__file__).resolve().parent.parent
-NAMES = ("head",)
+NAMES = ("head", "dragon")
 
 
 def sculpted(figure: ModuleType, step: float, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -30,7 +30,7 @@ def main(names: list[str]) -> None:
     for name in names or NAMES:
         figure = importlib.import_module(name)
         title = (figure.__doc__ or "").partition("\n")[0]
-        surface.write(FOLDER / f"{name}.obj", title, *sculpted(figure, figure.STEP, figure.COUNT))
+        surface.write(FOLDER / f"{name}.obj", title, *sculpted(figure, figure.STEP, figure.COUNT), figure.DIGITS)
         print(f"wrote {FOLDER / name}.obj")
 
 

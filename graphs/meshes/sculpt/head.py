@@ -12,7 +12,7 @@ from hair import hair
 from surface import Focus
 
 LOW, HIGH = (-1.05, -1.6, -1.3), (1.05, 1.25, 1.2)
-STEP, COUNT = 0.0095, 44000
+STEP, COUNT, DIGITS = 0.0095, 44000, 3
 FOCUS = Focus((0.0, -0.15, 0.65), 0.5, 1.2)
 EYE = (0.265, 0.005, 0.515)
 EYEBALL = 0.165

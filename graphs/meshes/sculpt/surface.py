@@ -89,11 +89,11 @@ def settled(field: Field, vertices: np.ndarray, steps: int = 3) -> np.ndarray:
     return vertices
 
 
-def write(path: Path, title: str, vertices: np.ndarray, triangles: np.ndarray) -> None:
-    """Write an OBJ file, to the millimetre."""
-    if len(np.unique(vertices.round(3), axis=0)) < len(vertices):
-        raise ValueError(f"{path.name}: two vertices are within a millimetre; take fewer triangles")
+def write(path: Path, title: str, vertices: np.ndarray, triangles: np.ndarray, digits: int) -> None:
+    """Write an OBJ file, with so many digits after the point."""
+    if len(np.unique(vertices.round(digits), axis=0)) < len(vertices):
+        raise ValueError(f"{path.name}: two vertices are the same to {digits} digits; take fewer triangles, or more digits")
     lines = [f"# {title}"]
-    lines += [f"v {x:.3f} {y:.3f} {z:.3f}" for x, y, z in vertices]
+    lines += [f"v {x:.{digits}f} {y:.{digits}f} {z:.{digits}f}" for x, y, z in vertices]
     lines += [f"f {a} {b} {c}" for a, b, c in triangles + 1]
     path.write_text("\n".join(lines) + "\n")
