@@ -145,6 +145,7 @@ class Spawns:
         real = self.programs.real
         if name in ("age", "normalized_age"):
             age = times - parents.store.column("birth")[0][rows]
-            share = 1.0 if name == "age" else parents.gathered("life", rows, np.float64)[0][: len(rows)]
-            return (padded(age / share, real),)
+            if name == "normalized_age":
+                age = np.fmin(age / parents.gathered("life", rows, np.float64)[0][: len(rows)], 1.0)
+            return (padded(age, real),)
         return parents.gathered(name, rows, real)

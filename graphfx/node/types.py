@@ -67,7 +67,7 @@ ATTRIBUTES = {
 
 DERIVED_ATTRIBUTES = {
     "age": Attribute("age", "float", 0.0, "s", "Time since birth."),
-    "normalized_age": Attribute("normalized_age", "float", 0.0, "", "age / life."),
+    "normalized_age": Attribute("normalized_age", "float", 0.0, "", "age / life, 1 at most."),
 }
 
 OTHER_NAMES = {

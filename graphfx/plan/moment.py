@@ -20,6 +20,7 @@ from graphfx.plan.values import ValueWriter
 from graphfx.program import Builder, Operand, Uniform
 
 ZERO_TIME = Uniform("0", "float", 0.0)
+ONE = Uniform("1", "float", 1.0)
 ZERO = Uniform("(0, 0, 0)", "vec3", (0.0, 0.0, 0.0))
 AGES = ("age", "normalized_age")
 
@@ -127,8 +128,9 @@ class Moments:
             if name == "age":
                 return builder.call(basic.sum_of_numbers, builder.load("age", "float"), age_at(), name="age")
             if name == "normalized_age":
-                divide = function_for("divide", ("float", "float"))
-                return builder.call(divide, read("age"), state.attribute("life"), name="normalized_age")
+                divide, least = (function_for(function, ("float", "float")) for function in ("divide", "min"))
+                share = builder.call(divide, read("age"), state.attribute("life"), name="share of life")
+                return builder.call(least, share, ONE, name="normalized_age")  # who died in this frame is drawn as at death
             if name.startswith("parent."):
                 return read(name.removeprefix("parent."))
             if name.startswith("birth.") and name not in types and name not in self.attributes.constants:

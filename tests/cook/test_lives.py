@@ -254,3 +254,19 @@ def test_frames_before_the_first_are_counted_from_it(preroll):
         graph([], {"count": 1, "rate": 0, "set": {"radius": {"expr": "frame"}}}, {"preroll": preroll, "precision": 64}), 1
     )
     assert found["radius"].tolist() == [1 - np.ceil(preroll * 24)]
+
+
+def test_who_died_within_the_frame_is_drawn_as_at_its_death():
+    """No share of life is more than 1, also of those who ended while the shutter was open."""
+    left = {"type": "set", "set": {"radius": {"expr": "0.1 + (1 - normalized_age) ** 0.5"}}}
+    emit = {"count": 50, "life": {"rand": [0.021, 0.041]}, "set": {"position": [0, 2, 0]}}
+    film = effect(document([left], emit, image={"shutter": 1})).film(2)
+    assert film.dropped == 0 and film.pixels[..., 3].max() > 0.5
+
+
+def test_a_parent_that_dies_has_lived_the_whole_of_its_life():
+    """At a death the parent's share of life is 1, and never more."""
+    child = {"type": "spawn", "from": "sky", "when": "death", "set": {"mass": {"expr": "parent.normalized_age"}}}
+    nodes = {"child": child, "seen": {"type": "set", "from": "child", "set": {"radius": {"expr": "mass"}}}}
+    found = particles(document([], MANY, nodes=nodes, image={"from": "seen"}), 20, "child")["mass"]
+    assert len(found) > 50 and found.max() <= 1 and found.min() > 1 - 1e-9
