@@ -27,7 +27,7 @@ from graphfx.cook.limits import CookLimits, check_disk, check_limits
 from graphfx.cook.lost import Lost
 from graphfx.cook.memory import is_scarce, return_what_is_freed
 from graphfx.cook.movies import KINDS, Open, movie_file, open_movies
-from graphfx.cook.pilot import choices_for
+from graphfx.cook.pilot import choices_for, doubts
 from graphfx.cook.simulate import Simulation
 from graphfx.cook.writing import Writer
 from graphfx.errors import OutputError, Problem, UsageError
@@ -155,6 +155,8 @@ class Effect:
                         for image in self.plan.stills]
                 jobs += [pool.submit(writer.add, movie, films[movie.image.node.path], frame) for movie in movies]
                 warnings = (*far.warnings(simulation, frame), *lost.warnings(simulation, frame))
+                if frame == frames[0]:
+                    warnings = (*doubts(self.plan, self.choices), *warnings)
                 waiting = self._report(frame, simulation, list(films.values()), list(stills.values()), warnings), jobs
                 del films  # each is let go of as soon as it is written
             if waiting is not None:

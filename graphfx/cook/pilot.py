@@ -9,7 +9,7 @@ is a function of the graph alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ import numpy as np
 from graphfx.cook.matching import distances, quantile
 from graphfx.cook.sample import Sample
 from graphfx.cook.trial import States, Trial, Trials, sample_of, spread_frames
+from graphfx.errors import Problem
 from graphfx.graph.flat import FlatGraph
 from graphfx.plan.make import Plan, make_plan
 from graphfx.plan.method import Choice
@@ -183,10 +184,20 @@ class Pilot:
             f"95 % of {PARTICLES} tried are within {best.error:.2g} m, {100 * best.over:.2g} % over the "
             f"{self.flat.time.tolerance:g} m allowed, at {best.evaluations:.3g} evaluations a frame"
         )
-        if not enough:
-            told += "; none tried was accurate enough, see `graphfx study`"
-            told += ', and "precision": 64, as 32 bits tell no more of places so far out' if self.is_near_rounding else ""
-        return Choice(best.setting.method, f"{best.setting.name}; {told}", best.setting.scheme)
+        way = ', and "precision": 64, as 32 bits tell no more of places so far out' if self.is_near_rounding else ""
+        told += "" if enough else f"; none tried was accurate enough, see `graphfx study`{way}"
+        doubt = "" if best.error <= self.flat.time.tolerance else (
+            f"no way tried of computing its motion keeps time.tolerance, {self.flat.time.tolerance:g} m: the best leaves 95 % of "
+            f"particles within {best.error:.2g} m; allow as much, or see `graphfx study`{way}"
+        )
+        return Choice(best.setting.method, f"{best.setting.name}; {told}", best.setting.scheme, doubt)
+
+
+def doubts(plan: Plan, choices: Mapping[str, Choice]) -> Iterator[Problem]:
+    """Yield what is to be told of motions that are not as accurate as was asked."""
+    for path, choice in choices.items():
+        if choice.doubt:
+            yield Problem(choice.doubt, plan.emitters[path].node.location, f"nodes.{path}")
 
 
 def errors_of(true: Mapping[int, States], other: Mapping[int, States]) -> np.ndarray:

@@ -19,7 +19,7 @@ from graphfx.node import COMMON_KEYS, Parameter
 _TIME = {
     "fps": Parameter("fps", "float", None, min=0.001, max=1e6),
     "preroll": Parameter("preroll", "float", None, unit="s", min=0, max=1e6),
-    "substeps": Parameter("substeps", "int", None, min=1, max=1_000_000),
+    "substeps": Parameter("substeps", "int", None, min=1, max=1000),
     "method": Parameter("method", "string", None, choices=METHODS),
     "order": Parameter("order", "int", None, choices=tuple(map(str, ORDERS))),
     "tolerance": Parameter("tolerance", "float", None, unit="m", min=1e-15, max=1e6),

@@ -91,7 +91,7 @@ def _top() -> Schema:
         "frames": {"type": "array", "prefixItems": [{"type": "integer"}] * 2, "minItems": 2, "maxItems": 2,
                    "description": "First and last frame."},
         "preroll": {"type": "number", "minimum": 0, "default": 0, "description": "Seconds simulated before the first frame."},
-        "substeps": {"type": "integer", "minimum": 1, "default": 1, "description": "Steps of a frame."},
+        "substeps": {"type": "integer", "minimum": 1, "maximum": 1000, "default": 1, "description": "Steps of a frame."},
         "method": {"enum": list(METHODS), "default": "auto", "description": "How motion is computed."},
         "order": {"enum": list(ORDERS), "default": 6, "description": "Order of the method adaptive."},
         "tolerance": {"type": "number", "exclusiveMinimum": 0, "default": 1e-3, "description": "Error of a position [m]."},

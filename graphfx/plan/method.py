@@ -17,11 +17,12 @@ LINEAR_ROLES = ("linear", "noise")
 
 @dataclass(frozen=True)
 class Choice:
-    """How motion is computed: the method, why, and its scheme of a step."""
+    """How motion is computed: the method, why, its scheme of a step, and what is to be told if none tried was good enough."""
 
     method: str
     reason: str
     scheme: Scheme = SIMPLE
+    doubt: str = ""
 
 
 def _has_role(movers: list[Mover], *roles: str) -> bool:

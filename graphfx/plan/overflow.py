@@ -9,10 +9,11 @@ is none because of how a particle moves, and what grows without end is told, in 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from graphfx.graph.values import Literal
+from graphfx.graph.values import Call, Literal, children
 from graphfx.math import Vec3
 from graphfx.motion import basic, overflow
 from graphfx.plan.evaluate import constant_value
@@ -25,6 +26,8 @@ from graphfx.plan.scheme import kept_state, put_back
 from graphfx.program import Builder, Column
 
 TRIALS = 16
+DOUBTFUL = {"divide", "modulo", "power", "exp", "log", "sqrt", "smoothstep"}
+"""Functions of expressions that make of some numbers what is none."""
 
 
 def may_overflow(motion: Motion) -> bool:
@@ -34,7 +37,12 @@ def may_overflow(motion: Motion) -> bool:
         return False
     if motion.linear.matrix is not None or any(motion.of(role) for role in (*INNER_ROLES, "surface")):
         return True
-    return any(map(may_grow, motion.linear.movers))
+    return any(may_grow(mover) or any(map(_may_be_none, mover.node.arguments.values())) for mover in motion.linear.movers)
+
+
+def _may_be_none(value: Any) -> bool:
+    """Return whether a parameter may be infinite, or no number: it has a division in it, a root or the like."""
+    return (isinstance(value, Call) and value.function in DOUBTFUL) or any(map(_may_be_none, children(value)))
 
 
 def growing(motion: Motion) -> list[Mover]:

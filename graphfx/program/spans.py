@@ -25,28 +25,35 @@ class Span:
 
 @dataclass
 class _Numbering:
-    """Numbers instructions: `uses` are (number, whether it is read) of each operand in order, `loops` first and last numbers,
-    inner ones before outer ones."""
+    """Numbers instructions: `spans` are from the first use of each operand to the last; `inside` tells, of each loop in which it
+    is used, whether the first use there reads it. Loops have the numbers of their first instructions; `ends` are of their last.
+    """
 
     number: int = 0
-    operands: dict[int, Operand] = field(default_factory=dict)
-    uses: dict[int, list[tuple[int, bool]]] = field(default_factory=dict)
-    loops: list[tuple[int, int]] = field(default_factory=list)
+    spans: dict[int, Span] = field(default_factory=dict)
+    inside: dict[int, dict[int, bool]] = field(default_factory=dict)
+    ends: dict[int, int] = field(default_factory=dict)
+    open: list[int] = field(default_factory=list)
 
     def use(self, operand: Operand, read: bool) -> None:
-        self.operands[id(operand)] = operand
-        self.uses.setdefault(id(operand), []).append((self.number, read))
+        span = self.spans.setdefault(id(operand), Span(operand, self.number, self.number))
+        span.last = self.number
+        if self.open:
+            inside = self.inside.setdefault(id(operand), {})
+            for loop in self.open:
+                inside.setdefault(loop, read)
 
     def body(self, body: list[Instruction]) -> None:
         for instruction in body:
             self.number += 1
+            if isinstance(instruction, Loop):
+                self.open.append(self.number)
             for operand in _read_by(instruction):
                 self.use(operand, True)
             if isinstance(instruction, Loop):
-                first = self.number
                 self.body(instruction.body)
                 self.number += 1
-                self.loops.append((first, self.number))
+                self.ends[self.open.pop()] = self.number
             else:
                 for operand in instruction.results if isinstance(instruction, Call) else (instruction.result,):
                     self.use(operand, False)
@@ -69,11 +76,9 @@ def spans_of(program: Program) -> dict[int, Span]:
     numbering.number += 1
     for column in (*program.stores.values(), program.context, *([program.rejects] if program.rejects else [])):
         numbering.use(column, True)
-    spans: dict[int, Span] = {}
-    for key, uses in numbering.uses.items():
-        spans[key] = span = Span(numbering.operands[key], uses[0][0], uses[-1][0])
-        for first, last in numbering.loops:
-            inside = [read for number, read in uses if first <= number <= last]
-            if inside and (inside[0] or span.first < first or span.last > last):
-                span.first, span.last = min(span.first, first), max(span.last, last)
-    return spans
+    for key, inside in numbering.inside.items():
+        span = numbering.spans[key]
+        for first, read in sorted(inside.items(), key=lambda loop: numbering.ends[loop[0]]):  # inner ones before outer ones
+            if read or span.first < first or span.last > numbering.ends[first]:
+                span.first, span.last = min(span.first, first), max(span.last, numbering.ends[first])
+    return numbering.spans

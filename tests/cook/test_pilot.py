@@ -99,3 +99,18 @@ def test_what_32_bits_cannot_tell_is_said():
     told = re.search(r"95 % of 256 tried are within (\S+) m", chosen.reason)
     assert 1e-8 < float(told[1]) < 1e-3
     assert chosen.reason.endswith('and "precision": 64, as 32 bits tell no more of places so far out')
+
+
+def test_a_tolerance_that_nothing_keeps_is_told_once(tmp_path):
+    """A cook warns with its first frame, at the emitter, how near the best comes; what is kept is not told of."""
+    reports = []
+    for tolerance in (1e-12, 1e-2):
+        emit = {"rate": 0, "count": 20, "set": START}
+        time = {"method": "auto", "tolerance": tolerance, "frames": [1, 3], "precision": 32}
+        flat = flatten(document_of(graph(SCENES["attractors"], emit, time, {"shutter": 0, "size": [8, 8]})), LIBRARY)
+        Effect(flat).cook(tmp_path, report=reports.append)
+    (told,), *others = (report.warnings for report in reports)
+    assert not any(others) and told.path == "nodes.sky" and told.location.line > 0
+    assert re.fullmatch(r"no way tried of computing its motion keeps time.tolerance, 1e-12 m: the best leaves 95 % of "
+                        r"particles within \S+e-07 m; allow as much, or see `graphfx study`, and \"precision\": 64, as 32 bits "
+                        r"tell no more of places so far out", told.message)

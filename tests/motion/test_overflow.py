@@ -30,6 +30,7 @@ GROWING: dict[str, list[Any]] = {
 MILD: dict[str, list[Any]] = {
     "free flight": [],
     "what falls, slowed down": [{"type": "gravity"}, {"type": "damp", "damping": 2}, {"type": "wind"}],
+    "what depends on each": [{"type": "gravity", "acceleration": {"expr": "vec(0, mass * -9, 0)"}}, {"type": "damp"}],
     "springs": [{"type": "spring", "frequency": {"rand": [1, 9]}}, {"type": "spiral"}, {"type": "random_acceleration"}],
 }
 
@@ -104,6 +105,27 @@ def test_rates_are_known_by_their_values():
     assert causes({"type": "damp", "damping": 3}, {"type": "scale", "rate": -2}, {"type": "spring"}, {"type": "drag"}) == []
     assert causes({"type": "damp", "damping": -3}, {"type": "gravity"}) == ["act/damp"]
     assert causes({"type": "damp", "damping": {"rand": [1, 2]}}, {"type": "scale", "rate": 2}) == ["act/damp", "act/scale"]
+
+
+@pytest.mark.parametrize("text", ["1 / (mass - 1)", "sqrt(0.5 - mass)", "log(mass - 1)", "exp(mass * 1e9)"])
+def test_a_parameter_that_is_no_number_moves_nobody(text):
+    """What is linear is looked at where a parameter may be infinite or no number; nobody moves under it."""
+    effect = burst([{"type": "gravity", "acceleration": {"expr": f"vec(0, {text}, 0)"}}], 9, {"method": "strang"})
+    simulation = carried(effect)
+    born, *_ = (places(each) for each in [effect.simulation()] for _ in each.frames(0))
+    assert simulation.particles["some"].lost == 9 * 24 and (places(simulation) == born).all()
+
+
+def test_who_was_kept_goes_on_when_nothing_drives_it_any_more():
+    """Particles that stood still go on as soon as they are led to numbers again: nothing of the step not taken is left."""
+    ops = [{"type": "gravity"}, {"type": "undamp", "rate": 50, "during": [0, 3000]}]
+    effect = burst(ops, 9, {"method": "strang", "fps": 1e-3, "frames": [0, 6]})
+    assert effect.plan.emitters["some"].motion.keeps, "what rounding takes from places"
+    simulation, seen = effect.simulation(), []
+    for _ in simulation.frames(6):
+        seen.append((places(simulation), simulation.particles["some"].lost))
+    (before, lost), (after, again) = seen[-2:]
+    assert lost == again == 18 and (after != before).any(axis=1).all()
 
 
 def test_what_a_graph_itself_sets_is_not_a_step():

@@ -169,7 +169,8 @@ class Cook:
         if self.restless:
             click.echo(f"{self.restless:,} times a particle had too many contacts in one step, and was laid to rest", err=True)
         if self.failed:
-            told = "could not go on to the end of a frame: no step was short enough; soften what pulls it, or see graphfx study"
+            told = ("could not go on to the end of a frame: no step was short enough; soften what pulls it or holds it back, or "
+                    "see graphfx study")
             click.echo(f"{self.failed:,} times a particle {told}", err=True)
 
     def tell(self) -> None:
