@@ -13,7 +13,7 @@ from graphfx.study.candidates import FAMILIES, Candidate, Family, candidates
 from graphfx.study.data import FIELDS, paths_in, study_data
 from graphfx.study.errors import Errors
 from graphfx.study.films import picture_errors
-from graphfx.study.recommend import advice, compare_pictures
+from graphfx.study.recommend import advice, compare_pictures, keeps
 from graphfx.study.reference import Reference, references, truth_of
 from graphfx.study.study import Maker, Result, Study, by_rank
 
@@ -69,6 +69,23 @@ def test_a_tolerance_of_steps_is_told_from_that_of_the_graph(vortices):
     own = [each for each in vortices.results if each.candidate.family.method == "adaptive" and each.candidate.tolerance != 1e-3]
     found = advice(replace(vortices, results=own))
     assert f"its tolerance of {found.result.candidate.setting} is what each particle's steps" in found.reason
+
+
+def test_a_quicker_setting_is_told_where_that_is_sure(vortices):
+    """A setting of more evaluations that surely takes less run time is named, with its share; one that may not is not."""
+    best = advice(vortices).result
+    good = [each for each in vortices.results if not each.message and keeps(each, vortices.tolerance)]
+    dearer = next(each for each in good if each.evaluations > best.evaluations)
+    slow = replace(best, seconds=[2.0, 2.1, 1.9])
+    for seconds, said in (([1.0, 1.1, 0.9], True), ([1.0], False), ([1.0, 1.8, 1.9], False)):
+        study = replace(vortices, results=[slow, replace(dearer, seconds=seconds)])
+        assert (f"; {dearer.candidate.name} took 0.5 times its run time here" in advice(study).reason) == said
+
+
+def test_nothing_tried_is_not_nothing_good(vortices):
+    """Where no setting was tried it is said that there was no time, not that none keeps the tolerance."""
+    reason = advice(replace(vortices, results=[])).reason
+    assert reason.endswith("no setting was tried in the time that there was; --seconds allows more")
 
 
 def test_run_times_are_told_as_ratios_to_sims(vortices):
