@@ -12,6 +12,8 @@ from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
 
 LIBRARY = Library(library_roots())
+UNROLLED = 16
+"""Steps that a program has, at most: what it takes to make one grows with them."""
 
 
 def effect_of(
@@ -49,3 +51,11 @@ def path(*given: Any, **more: Any) -> tuple[np.ndarray, np.ndarray]:
         )
     both = np.array(states)
     return both[:, 0], both[:, 1]
+
+
+def end_of(ops: list[Any], start: Any, velocity: Any, seconds: float, steps: int, **more: Any) -> tuple[np.ndarray, np.ndarray]:
+    """Return position and velocity after some seconds in so many equal steps, at most `UNROLLED` of them in a frame."""
+    within = next(count for count in range(UNROLLED, 0, -1) if steps % count == 0)
+    frames = steps // within
+    position, speed = path(ops, start, velocity, frames / seconds, frames, substeps=within, **more)
+    return position[-1], speed[-1]

@@ -7,7 +7,7 @@ import pytest
 
 from graphfx.math import Vec3
 
-from .one_particle import LIBRARY, effect_of, path
+from .one_particle import LIBRARY, effect_of, end_of, path
 from .test_linear import array
 
 H = 1 / 24
@@ -73,9 +73,9 @@ FLOWS = {
 def test_alone_it_is_exact(name):
     """One step of two seconds is 2000 steps of a millisecond: position and velocity, carried once."""
     assert effect_of([FLOWS[name]], (0, 0, 0), V).plan.emitters["one"].method == "exact"
-    once, often = (path([FLOWS[name]], (1, 2, 0), V, fps=0.5, frames=1, substeps=n) for n in (1, 2000))
+    once, often = (end_of([FLOWS[name]], (1, 2, 0), V, 2, steps) for steps in (1, 2000))
     for one, other in zip(once, often, strict=True):
-        np.testing.assert_allclose(one[-1], other[-1], rtol=1e-11)
+        np.testing.assert_allclose(one, other, rtol=1e-11)
 
 
 @pytest.mark.parametrize("flow", [FLOWS["drag"], FLOWS["undamp"] | {"threshold": 1000}], ids=["drag", "undamp"])
@@ -85,7 +85,7 @@ def test_with_others_it_is_of_second_order(flow):
     assert effect_of(ops, (0, 0, 0), V).plan.emitters["one"].method == "strang"
 
     def end(steps: int) -> np.ndarray:
-        return path(ops, (0, 0, 0), V, fps=1, frames=1, substeps=steps)[0][-1]
+        return end_of(ops, (0, 0, 0), V, 1, steps)[0]
 
     exact = end(512)
     errors = [np.linalg.norm(end(steps) - exact) for steps in (8, 16, 32)]

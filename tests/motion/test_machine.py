@@ -88,7 +88,7 @@ TIMES = {
 
 
 def effect_of(ops: list[Any], time: dict[str, Any], **emit: Any) -> Effect:
-    """Return the effect of an emitter of 30 particles a second under operators."""
+    """Return the effect of an emitter under operators, of 30 particles a second unless told."""
     document = {
         "graphfx": 1,
         "seed": 3,
@@ -115,8 +115,9 @@ def bits(columns: dict[str, np.ndarray]) -> dict[str, bytes]:
 @pytest.mark.parametrize("case", CASES)
 def test_machine_is_plain_python(case, time):
     """Every stored column has the same bits by both ways, and all are finite."""
-    found = effect_of(CASES[case], TIMES[time], life=0.6)
+    rate = 10 if "noise" in case else 30  # plain Python takes long for noise
+    found = effect_of(CASES[case], TIMES[time], life=0.6, rate=rate)
     last = found.flat.time.last
     machine, plain = found.simulate(last, threads=2)["sky"], found.simulate(last, reference=True)["sky"]
     assert bits(machine) == bits(plain), [name for name in plain if bits(machine)[name] != bits(plain)[name]]
-    assert len(machine["position"]) >= 10 and np.isfinite(machine["position"]).all()
+    assert len(machine["position"]) >= rate / 3 and np.isfinite(machine["position"]).all()

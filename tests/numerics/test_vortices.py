@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from ..motion.one_particle import path
+from ..motion.one_particle import end_of, path
 from .exactly import EPS, LONG
 
 CENTER = np.array([4.0, 7, -2])
@@ -56,7 +56,7 @@ def test_two_vortices_are_of_second_order():
     ops = vortex(3, 1.5) + vortex(-2, 1.5, id="other", center=[1.5, 0, 0], axis=[0.3, 1, 0])
 
     def end(steps: int) -> np.ndarray:
-        return path(ops, (0.7, 0.2, 0.4), fps=0.5, frames=1, substeps=steps, method="strang")[0][-1]
+        return end_of(ops, (0.7, 0.2, 0.4), (0, 0, 0), 2, steps, method="strang")[0]
 
     exact = end(1024)
     errors = [np.linalg.norm(end(steps) - exact) for steps in (16, 32, 64)]
