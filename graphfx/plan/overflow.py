@@ -37,7 +37,8 @@ def may_overflow(motion: Motion) -> bool:
         return False
     if motion.linear.matrix is not None or any(motion.of(role) for role in (*INNER_ROLES, "surface")):
         return True
-    return any(may_grow(mover) or any(map(_may_be_none, mover.node.arguments.values())) for mover in motion.linear.movers)
+    return any(may_grow(mover) or mover.follows_state or any(map(_may_be_none, mover.node.arguments.values()))
+               for mover in motion.linear.movers)
 
 
 def _may_be_none(value: Any) -> bool:

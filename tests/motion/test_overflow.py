@@ -16,6 +16,7 @@ from .many_particles import effect_of, states
 GROWING: dict[str, list[Any]] = {
     "undamp": [{"type": "undamp", "rate": 50}],
     "damp below 0 with a threshold": [{"type": "damp", "damping": -50, "threshold": 1e6}],
+    "what follows the velocity": [{"type": "gravity", "acceleration": {"expr": "velocity * 1000"}}],
     "gravity and undamp": [{"type": "gravity"}, {"type": "undamp", "rate": 50}],
     "a matrix": [{"type": "scale", "rate": 50}, {"type": "gravity"}],
     "an attractor and undamp": [{"type": "attract", "strength": 1e12}, {"type": "undamp", "rate": 50}],

@@ -66,6 +66,17 @@ def test_no_others_are_told_of(place, time, tmp_path):
     assert not any(report.warnings for report in reports(place, time, tmp_path))
 
 
+def test_surfaces_as_large_are_told_of_once(tmp_path):
+    """A floor made of a sphere of 1e9 m stands 64 m apart at best in 32 bits: that is told at its first length, once."""
+    floor = {"type": "bounce_sphere", "center": [0, -1e9, 0], "sphere_radius": 1e9}
+    told: list = []
+    for precision in (32, 64):
+        made([floor], {}, {"frames": [0, 2], "precision": precision}, {"size": [8, 8]}).cook(tmp_path, report=told.append)
+    (warning,), *others = (report.warnings for report in told)
+    assert not any(others) and warning.path == "nodes.act/bounce_sphere.center" and warning.location.line > 0
+    assert warning.message.startswith("its center is 1,000,000,000 m, where 32 bits tell places 64 m apart at best; add")
+
+
 def test_the_command_tells_of_them(tmp_path, monkeypatch, capsys):
     """`graphfx cook` warns on stderr, and with --json in the line of the frame."""
     monkeypatch.chdir(tmp_path)
