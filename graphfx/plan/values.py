@@ -21,6 +21,9 @@ from graphfx.plan.splines import slopes
 from graphfx.program import Builder, Column, Function, Operand, Uniform
 from graphfx.program.reference import execute
 
+PRODUCTS = (2.0, 3.0, 4.0)
+"""Exponents that, where an expression states them, are written as products."""
+
 
 @dataclass
 class StepValues:
@@ -175,6 +178,8 @@ class _Lowering:
             return self.writer.clock[tree.name] if tree.name in CLOCK_NAMES else self.scope.attribute(tree.name)
         if isinstance(tree, Call):
             parts = [self.writer.operand(part) for part in tree.arguments]
+            if tree.function == "power" and tree.arguments[1] in PRODUCTS:
+                return self._product(parts[0], int(tree.arguments[1]))
             return self.builder.call(function_for(tree.function, tuple(part.type for part in parts)), *parts)
         if isinstance(tree, Random):
             return self._random(tree)
@@ -187,6 +192,12 @@ class _Lowering:
         if isinstance(tree, Member) and tree.value is not None:
             return self._results(tree.value)[tree.index]
         raise TypeError(f"no instruction finds {type(tree).__name__}")
+
+    def _product(self, factor: Operand, count: int) -> Operand:
+        """Write a power of 2 to 4 as products, which holds for any sign."""
+        multiply = function_for("multiply", ("float", "float"))
+        square = self.builder.call(multiply, factor, factor, name="square")
+        return square if count == 2 else self.builder.call(multiply, square, factor if count == 3 else square, name="power")
 
     def _draw(self, value: Value, per: str, purpose: str = "") -> Column:
         """Write a draw in a scope: once for the graph, in each frame, for the particle, its life or a hit, or its cluster.

@@ -205,3 +205,12 @@ def test_draw_of_a_hit_is_new_at_each():
     ]
     seen = {(float(mass), float(radius)) for radius, mass in (after(ops, n)["color"][0, :2] for n in range(1, 25))}
     assert len(seen) == len({mass for mass, _ in seen}) == len({radius for _, radius in seen}) >= 2
+
+
+@pytest.mark.parametrize("reference", [False, True])
+def test_a_power_written_as_two_to_four_takes_any_sign(reference):
+    """x ** 2, x ** 3 and pow(x, 4) are products, of negative numbers too; other powers are not numbers there."""
+    for text, count in (("position.x ** 2", 2), ("position.x ** 3", 3), ("pow(position.x, 4)", 4)):
+        found = particles(graph([{"type": "set", "set": {"radius": {"expr": text}}}], {"count": 64}), 1, reference=reference)
+        x = found["position"][:, 0].astype(float)
+        assert x.min() < -0.5 and np.allclose(found["radius"], x**count, rtol=1e-6)
