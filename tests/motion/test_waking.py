@@ -133,7 +133,8 @@ def test_a_gust_lets_it_go_at_an_instant_of_the_true_motion():
 
     def vortex(name: str, height: float, magnitude: float) -> dict[str, Any]:
         center = {"keys": [[0, [0, height, -3]], [2, [8, height, -3]]]}
-        return {"type": "vortex", "id": name, "center": center, "axis": [0, 0, 1], "magnitude": magnitude, "tightness": 1.2, "range": 5}
+        shape = {"axis": [0, 0, 1], "tightness": 1.2, "range": 5}
+        return {"type": "vortex", "id": name, "center": center, "magnitude": magnitude, **shape}
 
     def place(**time: Any) -> np.ndarray:
         ops = [vortex("lower", 2, -7), vortex("upper", 5.2, 7), STICKY | {"resilience": 0}]
