@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 MESHES = Path(__file__).resolve().parents[2] / "graphs" / "meshes"
-NAMES = ("head",)
+NAMES = ("head", "dragon")
 
 
 @pytest.fixture

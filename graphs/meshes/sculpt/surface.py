@@ -48,11 +48,22 @@ def triangulated(field: Field, low: np.ndarray, high: np.ndarray, step: float) -
 
 
 def decimated(vertices: np.ndarray, triangles: np.ndarray, count: int, focus: Focus) -> tuple[np.ndarray, np.ndarray]:
-    """Return the mesh with about so many triangles, smaller where it is bent, and about the focus."""
+    """Return the mesh with about so many triangles, smaller where it is bent, and about the focus; closed."""
     from fast_simplification import simplify
 
-    points, faces = simplify(focus.magnified(vertices).astype(np.float32), triangles.astype(np.int32), target_count=count, agg=4)
-    return focus.restored(points.astype(float)), faces
+    large = focus.magnified(vertices).astype(np.float32)
+    for haste in (4, 5, 3, 6, 7):
+        points, faces = simplify(large, triangles.astype(np.int32), target_count=count, agg=haste)
+        if len(faces) < 1.05 * count and is_closed(faces):
+            return focus.restored(points.astype(float)), faces
+    raise ValueError(f"brought down to {count} triangles, the surface is not closed; take more, or a smaller step")
+
+
+def is_closed(triangles: np.ndarray) -> bool:
+    """Return whether each edge is met by two triangles, once in each direction."""
+    edges = np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
+    there = np.unique(edges, axis=0)
+    return len(there) == len(edges) and np.array_equal(there, np.unique(edges[:, ::-1], axis=0))
 
 
 @dataclass(frozen=True)
