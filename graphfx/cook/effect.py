@@ -36,6 +36,7 @@ from graphfx.graph.flatten import flatten
 from graphfx.node import Library, library_roots
 from graphfx.plan.make import Plan, make_plan
 from graphfx.plan.method import Choice
+from graphfx.plan.pictures import ImagePlan
 from graphfx.render.film import Film
 from graphfx.store.threads import available_threads
 
@@ -212,20 +213,32 @@ class Effect:
             for path, particles in simulation.particles.items()
         }
 
-    def film(self, frame: int, threads: int | None = None, image: int = 0) -> Film:
-        """Return a frame of one of the graph's images as a film: linear, premultiplied float32."""
+    def _image(self, image: int | str) -> ImagePlan:
+        """Return an image by its place among the graph's images, or by the id of its node."""
+        images = self.plan.images
+        if isinstance(image, int) and image < len(images):
+            return images[image]
+        found = [each for each in images if each.node.path == image]
+        if not found:
+            names = ", ".join(each.node.path for each in images)
+            raise UsageError(f"the graph has no image {image!r}; it has: {names}" if names else "the graph has no image")
+        return found[0]
+
+    def film(self, frame: int, threads: int | None = None, image: int | str = 0) -> Film:
+        """Return a frame of one of the graph's images, by number or id, as a film: linear, premultiplied float32."""
         self._checked([frame])
+        wanted = self._image(image)
         simulation = self.simulation(threads or available_threads())
         for _ in simulation.frames(frame):
             pass
-        return draw_all(self.plan.images[image], simulation, frame, threads or available_threads())
+        return draw_all(wanted, simulation, frame, threads or available_threads())
 
-    def frame(self, frame: int, threads: int | None = None, image: int = 0) -> Any:
-        """Return a frame as a Pillow image, which notebooks show."""
+    def frame(self, frame: int, threads: int | None = None, image: int | str = 0) -> Any:
+        """Return a frame of one of the graph's images, by number or id, as a Pillow image, which notebooks show."""
         from PIL import Image
 
         writer = Writer(self.plan, threads or available_threads())
-        return Image.fromarray(writer.displayed(self.plan.images[image], self.film(frame, threads, image), frame))
+        return Image.fromarray(writer.displayed(self._image(image), self.film(frame, threads, image), frame))
 
 
 def _finished(report: FrameReport, jobs: list[Future[None]]) -> FrameReport:

@@ -231,8 +231,6 @@ class ValueReader:
         high = self.read(inner.value[1], second, scope, f"{key}.rand[1]")
         if low is None or high is None or share is None or not per:
             return None
-        if per == "hit" and "hit" not in scope.qualifiers:
-            self.complain(item.location, path, 'there is a hit only where the operator says "when": "hit"')
         return Random(want.type or low.type, item.location, path, _seed(scope, key), low, high, per, share)
 
     def _node(self, item: Item, name: str, want: Parameter, scope: Scope, key: str) -> Value | None:

@@ -51,7 +51,7 @@ FUNCTIONS = {
         Function("multiply", (*_TWO, ((_V, _F), _V), ((_F, _V), _V)), "a * b", "Product; a vector by a number scales it."),
         Function("divide", (((_F, _F), _F), ((_V, _F), _V)), "a / b", "Quotient; division by zero gives infinity."),
         Function("modulo", _TWO, "a % b", "a - floor(a / b) * b: the remainder, with the sign of b."),
-        Function("power", _TWO, "a ** b", "a to the power b, as pow(a, b); a < 0 where b is written as 2, 3 or 4."),
+        Function("power", _TWO, "a ** b", "a to the power b, whole for a negative a; pow(a, b) is the same."),
         Function("negate", (((_F,), _F), ((_V,), _V)), "-a", "The opposite."),
         Function("less", _COMPARE, "a < b", "Whether a is less than b."),
         Function("less_equal", _COMPARE, "a <= b", "Whether a is at most b."),

@@ -41,8 +41,9 @@ class NamedValues:
         names = dict.fromkeys([*self.items, *(outer.scope.names if outer else ())])
         self.scope: Scope = replace(scope, named=self.get, names=names, uniform="", qualifiers=scope.qualifiers - {"birth"})
         self.path = path
+        inside = replace(self.scope, shared=True)
         for name in self._order():
-            self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), self.scope, f"values.{name}")
+            self.known[name] = self.reader.read(self.items[name], Parameter(name, "", None), inside, f"values.{name}")
 
     def get(self, name: str) -> Value | None:
         """Return a named value, or None where it is wrong, which has been told."""

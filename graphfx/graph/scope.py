@@ -46,6 +46,8 @@ class Scope:
     """The types of attributes and clusters that only the graph's groups declare."""
     settled: bool = False
     """Whether the value must be known before the cook: time passes, and draws are made, only later."""
+    shared: bool = False
+    """Whether it is a named value: it may be drawn per hit, for those who read it at hits."""
 
     def resolve(self, word: str) -> tuple[Any, str] | str:
         """Return what a name of an expression means, with its type, or the message that says why it means nothing."""
@@ -92,6 +94,9 @@ class Scope:
         if item.is_text and item.value not in known:
             checking.complain(item.location, path, not_one_of(item, '"per"', known),
                               f'a cluster is declared on an emit: "clusters": {{"{item.value[:40]}": {{"count": 60}}}}')
+            return ""
+        if item.value == "hit" and not self.shared and "hit" not in self.qualifiers:
+            checking.complain(item.location, path, _ELSEWHERE["hit"])
             return ""
         return checking.choice(item, path, '"per"', known)
 

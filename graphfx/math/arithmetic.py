@@ -18,6 +18,7 @@ from graphfx.math import log as log_of
 from graphfx.math import power as power_of
 from graphfx.math import sin as sin_of
 from graphfx.math import sqrt as sqrt_of
+from graphfx.math.logarithmic import NAN
 
 
 def add(a: Any, b: Any) -> Any:
@@ -46,8 +47,11 @@ def modulo(a: Any, b: Any) -> Any:
 
 
 def power(a: Any, b: Any) -> Any:
-    """a to the power b, for a >= 0."""
-    return power_of(a, b)
+    """a to the power b; of a negative a, b a whole number: |a|^b, with the sign of a where b is odd."""
+    size = power_of(absolute(a), b)
+    odd = floor_of(b * 0.5) * 2.0 != b
+    signed = where(odd, -size, size)
+    return where(a >= 0.0, size, where(floor_of(b) == b, signed, a * NAN))
 
 
 def negate(a: Any) -> Any:

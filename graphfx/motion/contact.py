@@ -97,7 +97,7 @@ def respond(
 
 @MOTION.function("float float", "bool")
 def is_instant(time: Any, step: Any) -> Any:
-    """Whether a contact came so soon (1/1024 of the step) that there is no getting on but along the surface."""
+    """Whether a contact came so soon (1/1024 of a whole step) that there is no getting on but along the surface."""
     return time <= step * 0.0009765625
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphfx.math import Vec3, exp, floor, on_unit_sphere, power, where
+from graphfx.math import Vec3, absolute, exp, floor, on_unit_sphere, power, where
 from graphfx.motion.basic import nought_below
 from graphfx.program import Bundle
 
@@ -56,6 +56,13 @@ def offspring(count: Any, probability: Any, draw: Any) -> Any:
 def is_by(time: Any, then: Any) -> Any:
     """time <= then."""
     return time <= then
+
+
+@EVENTS.function("float float float float", "bool")
+def is_there(step: Any, then: Any, finish: Any, resolution: Any) -> Any:
+    """Whether a step has come to `finish`, or set out so near to it that rounding may let no part of the step count."""
+    left = finish - then
+    return (step == left) | (left <= absolute(finish) * resolution)
 
 
 @EVENTS.function("float float", "bool")

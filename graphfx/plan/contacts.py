@@ -163,7 +163,8 @@ class Contacts:
                 candidate, chosen, search.moment_of, search.state, best, resting, search.tolerance, search.mean
             )
         slides = _any_of(builder, list(pressed.values()))
-        stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, search.step), name="stuck")
+        longest = self.moments.made.time(builder, "length")
+        stuck = builder.call(basic.both, slides, builder.under(slides).call(contact.is_instant, best, longest), name="stuck")
         sliding = Sliding(self.motion, self.barriers, search.moment_of, search.state, search.tolerance, self.resolution)
         sliding.write(builder.under(stuck), search.step, best, pressed, fade)
 

@@ -73,7 +73,7 @@ class Turn:
         if self.guard is not None:
             self.guard.end(inner, state, first, step, whole)
         inner.call(basic.sum_of_numbers, then, step, into=now)
-        reached = inner.call(basic.is_equal, step, inner.call(basic.difference, finish, then))
+        reached = inner.call(events.is_there, step, then, finish, self.contacts.resolution)
         inner.under(reached).call(basic.copy_number, finish, into=now)
         inner.note = "motion blur" if self.captures else inner.note
         for column, instant in self.captures:

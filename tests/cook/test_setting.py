@@ -209,8 +209,17 @@ def test_draw_of_a_hit_is_new_at_each():
 
 @pytest.mark.parametrize("reference", [False, True])
 def test_a_power_written_as_two_to_four_takes_any_sign(reference):
-    """x ** 2, x ** 3 and pow(x, 4) are products, of negative numbers too; other powers are not numbers there."""
+    """x ** 2, x ** 3 and pow(x, 4) are products, of negative numbers too."""
     for text, count in (("position.x ** 2", 2), ("position.x ** 3", 3), ("pow(position.x, 4)", 4)):
         found = particles(graph([{"type": "set", "set": {"radius": {"expr": text}}}], {"count": 64}), 1, reference=reference)
         x = found["position"][:, 0].astype(float)
         assert x.min() < -0.5 and np.allclose(found["radius"], x**count, rtol=1e-6)
+
+
+def test_what_reads_a_named_draw_of_a_hit_reads_the_same():
+    """A named value that is drawn per hit is one number for all who read it at a hit."""
+    both = {"color": {"expr": "vec(toss, toss, 1)"}, "opacity": {"expr": "toss"}}
+    ops = [{"type": "gravity"}, FLOOR | {"resilience": 1}, {"type": "set", "when": "hit", "set": both}]
+    found = particles(graph(ops, {"rate": 240}, {"frames": [1, 48]}, values={"toss": {"rand": [0.1, 0.9], "per": "hit"}}), 48)
+    hit = found["opacity"] < 1
+    assert (found["color"][hit, :2] == found["opacity"][hit, None]).all() and len(np.unique(found["opacity"][hit])) > 10

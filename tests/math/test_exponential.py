@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from graphfx.math import cosinc, exp, exp2, expm1, log, log2, phi1, phi2, power, sin3, sinc
+from graphfx.math import arithmetic, cosinc, exp, exp2, expm1, log, log2, phi1, phi2, power, sin3, sinc
 
 KINDS = [np.float32, np.float64]
 INF, NAN = np.inf, np.nan
@@ -119,3 +119,12 @@ def test_arrays_give_what_scalars_give(kind, function):
     x = np.abs(np.random.default_rng(2).normal(size=100).astype(kind) * kind(3))
     assert [function(v) for v in x] == list(function(x))
     assert [power(v, kind(1.7)) for v in x] == list(power(x, kind(1.7)))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_powers_of_negative_numbers(kind):
+    """In expressions a negative number has whole powers, with its sign where they are odd, and no others."""
+    for base in (-3.0, -0.5, 2.0):
+        for exponent in range(-4, 5):
+            assert call(arithmetic.power, kind, base, exponent) == pytest.approx(base**exponent, rel=1e-6)
+    assert np.isnan(call(arithmetic.power, kind, -2, 0.5)) and np.isnan(call(arithmetic.power, kind, NAN, 2))

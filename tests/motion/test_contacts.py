@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from .many_particles import walk
 from .one_particle import effect_of, path
 
 G = 9.81
@@ -186,3 +187,17 @@ def test_contact_under_damping_and_turning():
     ends = [path(ops, (0, 2, 0), (1, 1, 0), fps=fps, frames=2 * fps, spiral_axis=[0.2, 1, 0.1])[0][-1] for fps in (24, 240)]
     np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-11)
     assert abs(ends[0][1]) <= 1e-14
+
+
+def test_a_contact_at_the_very_end_of_a_frame_is_one():
+    """Of 20,000 particles that meet a sphere within the rounding of a frame's end each bounces on, and none is held."""
+    count, fps = 20_000, 24
+    chance = np.random.default_rng(1)
+    polar, azimuth = chance.uniform(0, 1.2, count), chance.uniform(0, 2 * np.pi, count)
+    normal = np.stack([np.sin(polar) * np.cos(azimuth), np.cos(polar), np.sin(polar) * np.sin(azimuth)], 1)
+    center, velocity = np.array([1.75, 4.85, -0.55]), np.array([-0.1, -8.15, 0.25]) + chance.normal(0, 0.3, (count, 3))
+    time = (1 / fps + chance.uniform(-2e-7, 2e-7, count))[:, None]
+    start = center + 0.8 * normal - velocity * time + np.array([0, G / 2, 0]) * time**2
+    ball = {"type": "bounce_sphere", "center": list(center), "sphere_radius": 0.8, "friction": 0.3}
+    *_, simulation = walk([GRAVITY, ball], start, velocity, frames=2, precision=32)
+    assert not simulation.particles["one"].store.column("resting")[0][:count].any()

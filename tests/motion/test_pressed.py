@@ -10,6 +10,8 @@ from graphfx.graph.document import document_of
 from graphfx.graph.flatten import flatten
 from graphfx.node import Library
 
+from .many_particles import walk
+
 
 @pytest.mark.parametrize("friction", [0, 0.5])
 def test_pressed_particle_slides_and_keeps_its_velocity(friction: float) -> None:
@@ -36,3 +38,13 @@ def test_pressed_particle_slides_and_keeps_its_velocity(friction: float) -> None
     np.testing.assert_allclose([x, y], [0.3, 0.0], atol=1e-12)
     np.testing.assert_allclose([array[0] for array in particles.store.column("velocity")], [0.3, 1, 0], atol=1e-12)
     assert particles.unfinished == 0
+
+
+def test_who_is_turned_into_a_floor_goes_along_it():
+    """30,000 particles thrown about under a turn that leads into the floor use up no more contacts than they have."""
+    chance, count = np.random.default_rng(1), 30_000
+    place, velocity = chance.uniform([-2, 0, -2], [2, 1, 2], (count, 3)), chance.normal(0, 2, (count, 3))
+    turn = {"type": "rotate", "center": [0, 0.5, 0], "axis": [0, 0, 1], "speed": 6}
+    ops = [{"type": "gravity"}, turn, {"type": "bounce_plane", "resilience": 0.3}]
+    *_, simulation = walk(ops, place, velocity, frames=3, precision=32, method="strang")
+    assert simulation.particles["one"].unfinished == 0
