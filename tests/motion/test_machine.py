@@ -82,7 +82,7 @@ TIMES = {
     "32 bits": {},
     "64 bits, 3 steps": {"precision": 64, "substeps": 3},
     "preroll": {"preroll": 0.13, "fps": 25, "substeps": 2},
-    "split steps": {"fps": 10, "frames": [1, 7], "substeps": 2},
+    "split steps": {"fps": 20, "frames": [1, 13]},
     "sims": {"method": "sims", "precision": 64},
 }
 
