@@ -32,11 +32,11 @@ def start_search(before: Any, after: Any, normal: Any, velocity: Any, step: Any,
     """Return (a, g(a), b, g(b), touching, at_once) for f(0) = before, f(h) = after < 0.
 
     `touching` is 1 for a particle that starts on the surface. `at_once`: it is under the surface already, or on it
-    and not leaving; contact is at 0.
+    and not leaving, or so slowly that rounding hides how far in a step; contact is at 0.
     """
     leaving = dot(velocity, normal)
     touching = before <= tolerance
-    at_once = touching & ((leaving <= 0.0) | (before < -tolerance))
+    at_once = touching & ((leaving * step <= tolerance) | (before < -tolerance))
     first = where(touching, leaving, before)
     last = where(touching, after / step, after)
     return step * 0.0, first, step, last, where(touching, step * 0.0 + 1.0, step * 0.0), at_once
@@ -101,9 +101,27 @@ def is_instant(time: Any, step: Any) -> Any:
     return time <= step * 0.0009765625
 
 
+@MOTION.function("vec3 vec3 vec3 float vec3 vec3", "vec3 vec3")
+def slide(first: Any, position: Any, velocity: Any, distance: Any, start: Any, normal: Any) -> Any:
+    """Put a particle that has sunk below a surface back on it, and turn its velocity from V0 to V with the surface.
+
+    Vt' = R (M - (M . N0) N0) + D - (D . N) N,    M = (V0 + V) / 2,    D = (V - V0) / 2
+
+    R turns the normal `start` N0 into `normal` N, and keeps lengths: half of what the velocity gained counts where the step
+    began, half where it ends, so that the way along a curved surface is of second order. What leads out of it stays.
+    """
+    mean, half = (first + velocity) * 0.5, (velocity - first) * 0.5
+    level = mean - start * dot(mean, start)
+    turned = level - (start + normal) * (dot(level, normal) / maximum(dot(start, normal) + 1.0, 0.001))
+    along = turned + half - normal * dot(half, normal)
+    sunk = distance < 0.0
+    outward = normal * maximum(dot(velocity, normal), 0.0)
+    return position - normal * minimum(distance, 0.0), where(sunk, along + outward, velocity)
+
+
 @MOTION.function("vec3 vec3 float vec3", "vec3 vec3")
-def slide(position: Any, velocity: Any, distance: Any, normal: Any) -> Any:
-    """Put a particle that has sunk below a surface back on it, and take from its velocity what points into it."""
+def slide_on_face(position: Any, velocity: Any, distance: Any, normal: Any) -> Any:
+    """Put a particle that has sunk below a flat face back on it, and take from its velocity what points into it."""
     return (
         position - normal * minimum(distance, 0.0),
         velocity - normal * where(distance < 0.0, minimum(dot(velocity, normal), 0.0), 0.0),

@@ -64,7 +64,7 @@ class Barriers:
             back = inner.under(plane.hit)
             above = back.call(barrier.from_above, plane.distance(back, state.position)[0], tolerance)
             into = (state.position, velocity)
-            back.call(contact.slide, *into, above, plane.normal, into=into)  # type: ignore[arg-type]
+            back.call(contact.slide_on_face, *into, above, plane.normal, into=into)  # type: ignore[arg-type]
             inner.call(basic.either, again, plane.hit, into=again)
         inner.call(basic.both, again, again, into=pressed)
         left = builder.under(pressed)

@@ -50,14 +50,16 @@ class Sliding:
     def _along(self, builder: Builder, time: Column, apart: dict[str, Column]) -> None:
         """Write the motion over a time, and put particles back on the surfaces, but for those from which they are apart."""
         moment, state = self.moment_of(builder, time), self.state
+        starts = [distance_of(self.motion, surface, moment, state, begins=True)[1] for surface in self.solids]
+        first = builder.call(basic.copy_vector, state.read("velocity"), name="first velocity")
         self.motion.step(moment, state)
-        for surface in self.solids:
+        for surface, start in zip(self.solids, starts, strict=True):
             inside = self.motion.under_conditions(surface, moment)
             if surface.node.path in apart:
                 inside = inside.under(inside.call(basic.but_not, inside.mask, apart[surface.node.path], name="on it"))
             distance, normal = distance_of(self.motion, surface, moment, state)
             into = (state.position, state.velocity)
-            inside.call(contact.slide, *into, distance, normal, into=into)  # type: ignore[arg-type]
+            inside.call(contact.slide, first, *into, distance, start, normal, into=into)  # type: ignore[arg-type]
 
     def _along_to(
         self, builder: Builder, first: dict[str, Column], step: Column, used: Column, pressed: dict[str, Column]
