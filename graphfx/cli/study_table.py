@@ -96,11 +96,14 @@ def lines(study: Study) -> list[str]:
         found += [f"as it is: {path}: {reason}" for path, reason in own.reasons.items()]
     if truth is not None:
         found.append(f"truth: {truth.references[0].name}")
-        found.append(f"  checked by {truth.references[1].name}: they differ by {truth.difference.p95:.1e} m (95th percentile), "
-                     f"{truth.difference.greatest:.1e} m at most; no smaller error is measured")
-        if truth.chaotic:
-            when = "at no frame" if truth.until is None else f"up to frame {truth.until} only, and all is compared up to there"
-            found.append(f"  chaotic: the references agree {when}")
+        checked = f"  checked by {truth.references[1].name}"
+        if truth.until is None:
+            found.append(f"{checked}: they agree at no frame: the motion is chaotic, or what is looked at once a step decides it")
+        else:
+            found.append(f"{checked}: they differ by {truth.difference.p95:.1e} m (95th percentile), "
+                         f"{truth.difference.greatest:.1e} m at most; no smaller error is measured")
+        if truth.chaotic and truth.until is not None:
+            found.append(f"  chaotic: the references agree up to frame {truth.until} only, and all is compared up to there")
         if truth.unknown:
             found.append(f"  {truth.unknown:,} of {truth.particles:,} particles are left out where the references differ by more "
                          f"than a tenth of the tolerance")
