@@ -66,7 +66,7 @@ def _list(effects: dict[str, Path], pages: dict[str, Path]) -> None:
     click.echo("pages of test pictures")
     for name, folder in pages.items():
         click.echo(f"  {name:{width}}  {', '.join(demo.title.lower() for demo in demos_in(folder))}")
-    click.echo(f"'graphfx demo {next(iter(effects))}' cooks one, small")
+    click.echo("'graphfx demo NAME' cooks one, small")
 
 
 def _cook(context: click.Context, known: Library, file: Path, out: Path, frames: str | None, size: Size | None,
