@@ -121,12 +121,10 @@ class Sample:
         return "shape"
 
     def _file(self) -> str:
-        """Return a file of a library, other than graphs and pictures, as a graph would name it."""
-        for root in self.library.roots:
-            for file in sorted((root / "graphs").rglob("*.*")):
-                if file.suffix not in (".json", ".png", ".md"):
-                    return file.relative_to(root / "graphs").as_posix()
-        return ""
+        """Return the smallest mesh of a library, as a graph would name it."""
+        found = [(file.stat().st_size, file.relative_to(root / "graphs").as_posix())
+                 for root in self.library.roots for file in (root / "graphs" / "meshes").glob("*.obj")]
+        return min(found, default=(0, ""))[1]
 
 
 def sample(node_type: NodeType, library: Library) -> dict[str, Any]:

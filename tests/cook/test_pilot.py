@@ -47,7 +47,8 @@ def flat_of(scene: str, tolerance: float, **time):
 @pytest.mark.parametrize("scene", SCENES)
 @pytest.mark.parametrize("tolerance", TOLERANCES)
 def test_the_promise_is_kept_by_all_particles(scene, tolerance):
-    """Of all particles 95 % are within the tolerance, and the error told of those tried is right within a factor of 2."""
+    """Of all particles 95 % are within the tolerance, and the error told of those tried is right within a factor of 2, or
+    of 4 where it is far within the tolerance."""
     flat = flat_of(scene, tolerance)
     chosen = planned(flat).emitters["sky"]
     told = re.search(r"95 % of 256 tried are within (\S+) m, \S+ % over the (\S+) m allowed", chosen.reason)
@@ -64,7 +65,8 @@ def test_the_promise_is_kept_by_all_particles(scene, tolerance):
     measured = np.quantile(np.concatenate(errors), 0.95)
     assert measured <= tolerance
     estimate = float(told[1])
-    assert estimate / 2 <= measured <= estimate * 2 or measured < tolerance * 1e-3
+    factor = 2 if max(estimate, measured) > tolerance / 10 else 4
+    assert estimate / factor <= measured <= estimate * factor or measured < tolerance * 1e-3
 
 
 def test_what_is_exact_is_not_tried():
