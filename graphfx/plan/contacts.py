@@ -19,7 +19,7 @@ from graphfx.plan.scheme import kept_state, put_back
 from graphfx.plan.settling import Settling
 from graphfx.plan.sliding import Sliding
 from graphfx.plan.surfaces import distance_of, moves
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform, constant_number
 
 FIXED = {
     "stick": {"resilience": 0.0, "friction": 1.0, "friction_threshold": 0.0, "rest_speed": INFINITY},
@@ -46,7 +46,7 @@ class Contacts:
         """Return the operands of how a particle answers; what sticks or slides has some of them fixed."""
         fixed = FIXED.get(response_of(surface.node), {})
         return [
-            Uniform(f"{fixed[name]:g}", "float", fixed[name])
+            constant_number(fixed[name])
             if name in fixed
             else moment.writer.argument(surface.node.arguments[name])
             for name in names

@@ -17,7 +17,7 @@ from graphfx.plan.frame_program import FrameProgram
 from graphfx.plan.matrix_form import STATES, columns_of, random_value
 from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.plan.movers import Mover
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform, constant_number
 
 
 @dataclass(eq=False)
@@ -165,7 +165,7 @@ def _go_by_fractions(
     length = moment.made.time(builder, "length")
     left = builder.call(basic.copy_number, dt, name="left")
     for fraction in range(matrix.FRACTIONS + 1):
-        share = _number(2.0**-fraction)
+        share = constant_number(2.0**-fraction)
         inner = builder.under(builder.call(matrix.is_left, left, length, share, name="fraction"))
         _go(inner, state, _matrix(moment, builder, members, None, fraction), forces)
         inner.call(matrix.less, left, length, share, into=left)
@@ -176,8 +176,4 @@ def _go_by_fractions(
         if number == 1:
             changed = [builder.call(basic.sum_of_vectors, part, force) for part, force in zip(changed, forces, strict=True)]
         term = (Column("term", "vec3"), Column("term", "vec3"))
-        builder.call(matrix.next_term, *state, *changed, left, _number(1.0 / number), into=(*state, *term))
-
-
-def _number(value: float) -> Uniform:
-    return Uniform(f"{value:g}", "float", value)
+        builder.call(matrix.next_term, *state, *changed, left, constant_number(1.0 / number), into=(*state, *term))

@@ -17,7 +17,7 @@ from graphfx.plan.holder import Holder
 from graphfx.plan.liveness import Attributes
 from graphfx.plan.rates import NOUGHT, Scope
 from graphfx.plan.values import ValueWriter
-from graphfx.program import Builder, Operand, Uniform
+from graphfx.program import Builder, Operand, Uniform, constant_number
 
 ZERO_TIME = Uniform("0", "float", 0.0)
 ONE = Uniform("1", "float", 1.0)
@@ -205,7 +205,7 @@ class Moments:
         def later(share: float) -> Operand:
             if share == 0:
                 return then
-            passed = builder.call(pacing.part_of, dt, Uniform(f"{share:.6g}", "float", share), name="passed")
+            passed = builder.call(pacing.part_of, dt, constant_number(share), name="passed")
             made: Operand = builder.call(basic.sum_of_numbers, then, passed, name="then")
             return made
 

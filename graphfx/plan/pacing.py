@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from graphfx.motion import basic, pacing
 from graphfx.plan.moment import State
 from graphfx.plan.scheme import Scheme, put_back
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform, constant_number
 
 MOST_TURNS = 64
 """Steps that one run takes, refused ones too; who is not at the end then is gathered with its like for another run."""
@@ -89,14 +89,14 @@ class Pacing:
         error = builder.call(
             pacing.size_of_error, errors.get("position", zero), errors.get("velocity", zero), self.longest, name="error"
         )
-        tolerance = Uniform(f"{self.scheme.tolerance:g}", "float", self.scheme.tolerance)
+        tolerance = constant_number(self.scheme.tolerance)
         resolution = Uniform("4 eps", "float", RESOLUTION[self.precision])
         velocity = state.velocity or zero
         hidden = builder.call(
             pacing.hidden_error, state.position, velocity, self.longest, self.share, resolution, name="hidden"
         )
-        finest = Uniform(f"{FINEST[self.precision]:g}", "float", FINEST[self.precision])
-        steep = Uniform(f"{self.scheme.steep:g}", "float", self.scheme.steep)
+        finest = constant_number(FINEST[self.precision])
+        steep = constant_number(self.scheme.steep)
         accepted, fails, share = Column("accepted", "bool"), Column("fails", "bool"), self.share
         builder.call(
             pacing.judged, error, hidden, tolerance, step, self.longest, share, finest, steep, into=(accepted, fails, share)

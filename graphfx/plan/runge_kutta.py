@@ -10,7 +10,7 @@ from graphfx.plan.moment import ZERO, Moment, State
 from graphfx.plan.movers import INNER_ROLES
 from graphfx.plan.scheme import kept_state, put_back
 from graphfx.plan.white_noise import NOUGHT
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, constant_number
 
 Rates = dict[str, Operand]
 
@@ -30,7 +30,7 @@ def write_runge_kutta(motion: Any, moment: Moment, state: State) -> dict[str, Op
         error = builder.call(basic.copy_vector, ZERO, name=f"error of {name}")
         for rate, share in zip(rates, runge_kutta.ERRORS, strict=True):
             if share and name in rate:
-                builder.call(runge_kutta.advance_by, error, rate[name], moment.dt, _number(share), into=error)
+                builder.call(runge_kutta.advance_by, error, rate[name], moment.dt, constant_number(share), into=error)
         errors[name] = error
     return errors
 
@@ -39,11 +39,7 @@ def _advance(builder: Builder, state: State, rates: Rates, dt: Operand, share: f
     for name, rate in rates.items():
         into = state.read(name)
         if share and isinstance(into, Column):
-            builder.call(runge_kutta.advance_by, into, rate, dt, _number(share), into=into)
-
-
-def _number(share: float) -> Uniform:
-    return Uniform(f"{share:.6g}", "float", share)
+            builder.call(runge_kutta.advance_by, into, rate, dt, constant_number(share), into=into)
 
 
 def _rates_at(motion: Any, moment: Moment, state: State) -> Rates:

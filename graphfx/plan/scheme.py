@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from graphfx.motion import basic, pacing
 from graphfx.plan.moment import ZERO, Moment, State
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, constant_number
 
 COUNTS = {4: (1, 2), 6: (1, 2, 3), 8: (1, 2, 3, 4)}
 """Numbers of equal steps that are extrapolated, by the order that results."""
@@ -93,11 +93,7 @@ def _extrapolate(builder: Builder, counts: tuple[int, ...], state: State, found:
         last = builder.call(basic.copy_vector, into, name=f"last {name}")
         error = builder.call(basic.copy_vector, ZERO, name=f"error of {name}")
         for row, value, difference in zip(found, values, errors, strict=True):
-            builder.call(pacing.corrected, into, last, row[name], _number(value), into=into)
-            builder.call(pacing.corrected, error, last, row[name], _number(difference), into=error)
+            builder.call(pacing.corrected, into, last, row[name], constant_number(value), into=into)
+            builder.call(pacing.corrected, error, last, row[name], constant_number(difference), into=error)
         wrong[name] = error
     return wrong
-
-
-def _number(value: float) -> Uniform:
-    return Uniform(f"{value:.6g}", "float", value)

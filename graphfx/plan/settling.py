@@ -15,7 +15,7 @@ from graphfx.plan.moment import Moment, State
 from graphfx.plan.motion import Mover
 from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of, moves
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform, constant_number
 
 COARSE = {32: 2.0**4, 64: 2.0**19}
 """The tolerance of a series, in tolerances of contacts: 2^-16 or 2^-30 of the greatest coordinate, and 1 m at least."""
@@ -108,7 +108,7 @@ class Settling:
         first, state, step, velocity = search.first, search.state, search.step, search.first["velocity"]
         moment = search.moment_of(builder, step)
         given = self.response(surface, moment, ("resilience", "friction", "friction_threshold", "rest_speed"))
-        coarse = Uniform(f"{COARSE[self.precision]:g}", "float", COARSE[self.precision])
+        coarse = constant_number(COARSE[self.precision])
         tolerance = builder.call(crossing.share_of, coarse, search.tolerance, name="tolerance")
         long, short = builder.call(settling.duration, velocity, normal, mean, given[0], step, name="long short")
         pull = self._acceleration(builder, first, long)

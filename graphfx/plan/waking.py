@@ -17,7 +17,7 @@ from graphfx.plan.moment import ZERO_TIME, Moments, State
 from graphfx.plan.motion import Motion
 from graphfx.plan.scheme import put_back
 from graphfx.plan.surfaces import distance_of
-from graphfx.program import Builder, Column, Operand, Uniform
+from graphfx.program import Builder, Column, Operand, Uniform, constant_number
 
 SHORT_STEPS = {32: 2, 64: 64}
 """How many short steps make one, by precision: what is known of the rates of an instant grows with their square."""
@@ -61,7 +61,7 @@ class Waking:
         place, way = self._way(builder, k, instant)
         moment = self.moments.own_step(builder, k, instant, ZERO_TIME, self.state)
         tolerance = builder.call(contact.contact_tolerance, place, self._resolution, name="tolerance")
-        count = _number(SHORT_STEPS[self.precision])
+        count = constant_number(SHORT_STEPS[self.precision])
         held = builder.call(basic.but_not, builder.mask, builder.mask, name="held")
         barriers = Barriers(self.motion)
         for surface in self.motion.of("surface"):
@@ -85,12 +85,12 @@ class Waking:
         found: list[Operand] = []
         count = SHORT_STEPS[self.precision]
         for share in (1 / count, 1 / (2 * count)):
-            length = builder.call(pacing.part_of, whole, _number(share), name="part")
+            length = builder.call(pacing.part_of, whole, constant_number(share), name="part")
             self.motion.step(self.moments.own_step(builder, k, instant, length, self.state), self.state)
             found.append(builder.call(basic.difference_of_vectors, self.state.position, first["position"], name="way"))
             found.append(builder.call(basic.copy_vector, self.state.read("velocity"), name="velocity"))
             put_back(builder, self.state, first)
-        way = builder.call(waking.whole_way, *found, first["velocity"], whole, _number(count), name="way from rest")
+        way = builder.call(waking.whole_way, *found, first["velocity"], whole, constant_number(count), name="way from rest")
         return first["position"], way
 
     def instant(self, builder: Builder, k: int, start: Operand, finish: Operand) -> Column:
@@ -109,7 +109,3 @@ class Waking:
         inner.call(waking.narrow, held_till, instant, between, self.woken(inner, k, between), into=(held_till, instant))
         inner.call(waking.is_open, held_till, instant, finish, self._resolution, into=searching)
         return instant
-
-
-def _number(value: float) -> Uniform:
-    return Uniform(f"{value:g}", "float", float(value))

@@ -13,6 +13,7 @@ from graphfx.program.instructions import (
     Operand,
     Program,
     Uniform,
+    constant_number,
     function,
 )
 
@@ -29,5 +30,6 @@ __all__ = [
     "Operand",
     "Program",
     "Uniform",
+    "constant_number",
     "function",
 ]

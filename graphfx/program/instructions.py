@@ -83,6 +83,11 @@ class Uniform(Operand):
         return self.name
 
 
+def constant_number(value: float) -> Uniform:
+    """Return one number for all particles, which listings show as it is."""
+    return Uniform(f"{value:g}", "float", float(value))
+
+
 @dataclass(frozen=True)
 class Call:
     """results = function(operands) under a mask."""
